@@ -1,0 +1,89 @@
+"""What a design is: impulses in continuous time, and what they guarantee. Not for: ticks or cranes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swayless.errors import DesignError
+from swayless.plant import Band, Mode
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+AMPLITUDE_SUM_TOLERANCE = 1e-12
+"""How far the amplitudes of a shaper may sum from 1: rounding of a handful of doubles, no more."""
+
+
+@dataclass(frozen=True)
+class Guarantee:
+    """What impulses hold: at most `tolerance` residual vibration anywhere in `band`.
+
+    Parameters
+    ----------
+    tolerance : float
+        Largest residual vibration promised, as a ratio of the unshaped one (0.05 is 5 %).
+    mode : Mode
+        The mode the impulses were designed for; `mode.damping_ratio` holds over the whole band.
+    band : Band
+        The connected band around the mode's frequency in which the residual stays at or below `tolerance`.
+    worst_residual_ratio : float
+        Largest residual vibration that occurs in the band, as a ratio.
+    """
+
+    tolerance: float
+    mode: Mode
+    band: Band
+    worst_residual_ratio: float
+
+
+@dataclass(frozen=True)
+class Shaper:
+    """A sequence of impulses in continuous time with which a command is convolved.
+
+    Parameters
+    ----------
+    times_s : ndarray, shape (n,)
+        Times of the impulses, the first 0, strictly increasing.
+    amplitudes : ndarray, shape (n,)
+        Amplitudes, summing to 1 within 1e-12. Negative ones are allowed.
+    family : str
+        Name of the family, such as ``"zvd"``.
+    guarantee : Guarantee
+        What the impulses hold.
+    source : str
+        Where the constraint equations come from: author, year, equation.
+
+    Raises
+    ------
+    DesignError
+        If an invariant does not hold.
+    """
+
+    times_s: FloatArray
+    amplitudes: FloatArray
+    family: str
+    guarantee: Guarantee
+    source: str
+
+    def __post_init__(self) -> None:
+        times_s = np.array(self.times_s, dtype=np.float64)
+        amplitudes = np.array(self.amplitudes, dtype=np.float64)
+        if times_s.ndim != 1 or times_s.shape != amplitudes.shape or times_s.size == 0:
+            raise DesignError(f"{self.family}: times and amplitudes must be non-empty and of one length")
+        if not (np.isfinite(times_s).all() and np.isfinite(amplitudes).all()):
+            raise DesignError(f"{self.family}: times and amplitudes must be finite")
+        if times_s[0] != 0.0 or np.any(np.diff(times_s) <= 0.0):
+            raise DesignError(f"{self.family}: times must start at 0 and increase, got {times_s.tolist()}")
+        if abs(float(amplitudes.sum()) - 1.0) > AMPLITUDE_SUM_TOLERANCE:
+            raise DesignError(f"{self.family}: amplitudes sum to {amplitudes.sum()!r}, not to 1")
+        times_s.flags.writeable = amplitudes.flags.writeable = False
+        object.__setattr__(self, "times_s", times_s)
+        object.__setattr__(self, "amplitudes", amplitudes)
+
+    @property
+    def duration_s(self) -> float:
+        """Time of the last impulse, in seconds."""
+        return float(self.times_s[-1])
