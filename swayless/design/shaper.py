@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +39,19 @@ class Guarantee:
     worst_residual_ratio: float
 
 
-@dataclass(frozen=True)
+class Impulses(Protocol):
+    """Anything made of impulses: a `Shaper`, or taps on a tick grid."""
+
+    @property
+    def times_s(self) -> FloatArray:
+        """Times of the impulses, shape (n,), in seconds, rising."""
+
+    @property
+    def amplitudes(self) -> FloatArray:
+        """Amplitudes of the impulses, shape (n,)."""
+
+
+@dataclass(frozen=True, eq=False)
 class Shaper:
     """A sequence of impulses in continuous time with which a command is convolved.
 
