@@ -1,0 +1,56 @@
+"""Which parts of the law a design uses, so that templates print no more than those. Not for: numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from swayless.controller.settings import ShaperSettings
+
+
+@dataclass(frozen=True)
+class Features:
+    """Parts of the law in use.
+
+    Parameters
+    ----------
+    has_minimum, has_resolution, has_inching : bool
+        Whether the limit of that name is not 0.
+    has_waiting_rows : bool
+        Whether a row has negative amplitudes.
+    """
+
+    has_minimum: bool
+    has_resolution: bool
+    has_inching: bool
+    has_waiting_rows: bool
+
+    @property
+    def checked_doc(self) -> str:
+        """What the check of the command does besides clamping."""
+        parts = [", above the minimum"] if self.has_minimum else []
+        parts += [", and new"] if self.has_resolution else []
+        return "".join(parts)
+
+    @property
+    def accept_doc(self) -> str:
+        """When a command becomes the target of the ramp."""
+        if self.has_waiting_rows:
+            return ": at once or, where amplitudes are negative, when settled only"
+        return ""
+
+
+def features_of(settings: ShaperSettings) -> Features:
+    """Find the parts of the law that a design uses.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    """
+    limits = settings.limits
+    return Features(
+        has_minimum=limits.minimum_command > 0,
+        has_resolution=limits.command_resolution > 0,
+        has_inching=limits.inching_command > 0,
+        has_waiting_rows=any(table.waits for table in settings.row_tables),
+    )

@@ -1,0 +1,309 @@
+"""The command shaper: the Python reference of the generated block (`law = "fixed"`).
+
+Per tick: check the command, see to the stops, choose the row, ramp, shape, foretell the stop. The order of
+operations is the law: the generated C and Structured Text follow it to the last bit. Not for: text.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from swayless.controller.output_units import OutputUnits, residual_bounds
+from swayless.controller.ramp import Glider, ramped
+from swayless.controller.settings import ShaperSettings
+from swayless.controller.status import ERROR_BITS, Status
+from swayless.controller.tap_filter import tap_filter
+# Plain integers: the flag type is an order of magnitude slower, and this runs millions of times.
+_DISABLED, _UNSHAPED, _ROW_WAITS = int(Status.DISABLED), int(Status.UNSHAPED), int(Status.ROW_WAITS)
+_COMMAND_WAITS, _COMMAND_CLAMPED = int(Status.COMMAND_WAITS), int(Status.COMMAND_CLAMPED)
+_COMMAND_INVALID, _SELECTOR_INVALID = int(Status.COMMAND_INVALID), int(Status.SELECTOR_INVALID)
+_QUICK_STOP, _EMERGENCY_STOP = int(Status.QUICK_STOP), int(Status.EMERGENCY_STOP)
+_BELOW_MINIMUM, _INCHING = int(Status.BELOW_MINIMUM), int(Status.INCHING)
+_ERRORS = int(ERROR_BITS)
+
+
+class ShaperInput(NamedTuple):
+    """Inputs of one tick.
+
+    Parameters
+    ----------
+    command : float or int
+        Wanted speed, in the units of the drive. Clamped to the maximum; non-finite counts as 0.
+    selector : int
+        Row: 0 unshaped, 1 to n.
+    enable : bool
+        False wants row 0.
+    quick_stop, emergency_stop : bool
+        Stop on the quick-stop ramp, unshaped; reference 0 at once.
+    """
+
+    command: Any = 0
+    selector: int = 1
+    enable: bool = True
+    quick_stop: bool = False
+    emergency_stop: bool = False
+
+
+class ShaperOutput(NamedTuple):
+    """Outputs of one tick; the fields of the generated block.
+
+    Parameters
+    ----------
+    reference : float or int
+        Speed for the drive, in its units.
+    stop_distance : float or int
+        Signed distance still to be travelled if the command were 0 from the next tick on: m, in int32 mm.
+    stop_time_s : float or int
+        Time until the reference is 0 then, in int32 rounded up to whole seconds.
+    stop_time_ticks : int
+        The same, in ticks.
+    residual_bound : float or int
+        Residual vibration promised by the row in use: a ratio, in int32 millionths.
+    row : int
+        Row in use.
+    settled : bool
+        Nothing is pending: the reference equals the command and a row may change.
+    active : bool
+        The command is being shaped.
+    error : bool
+        An input cannot be right; the status says which.
+    status : int
+        The status word, bits as in :class:`~swayless.controller.status.Status`.
+    """
+
+    reference: Any
+    stop_distance: Any
+    stop_time_s: Any
+    stop_time_ticks: int
+    residual_bound: Any
+    row: int
+    settled: bool
+    active: bool
+    error: bool
+    status: int
+
+
+class CommandShaper:
+    """A command shaper with its state, at rest at 0.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        Rows, limits and number type.
+    """
+
+    def __init__(self, settings: ShaperSettings) -> None:
+        limits, number = settings.limits, settings.number
+        self._settings, self._limits, self._number = settings, limits, number
+        self._tables = settings.row_tables
+        self._zero = number.scalar(0)
+        self._last = settings.longest_delay_ticks
+        self._bounds = residual_bounds(settings)
+        self._units = OutputUnits(settings)
+        self._speed_up = Glider(limits.acceleration_step, limits, number)
+        self._slow_down = Glider(limits.deceleration_step, limits, number)
+        self._quick_down = Glider(limits.quick_stop_step, limits, number)
+        self.init()
+
+    def init(self) -> None:
+        """Return to the state after power-on: at rest at 0, row 0, nothing latched."""
+        self._filter = tap_filter(self._settings)
+        self._held = self._target = self._command = self._reference = self._zero
+        self._still_ticks = self._last
+        self._row = self._selected_row = self._wanted_row = 0
+        self._invalid = self._quick = self._emergency = self._inching = False
+        self._status = 0
+
+    def step(self, inputs: ShaperInput) -> ShaperOutput:
+        """Run one tick.
+
+        Parameters
+        ----------
+        inputs : ShaperInput
+            Inputs of the tick; the command in the number type.
+
+        Returns
+        -------
+        ShaperOutput
+            Outputs of the tick.
+        """
+        self._status = 0
+        command = self._checked(inputs.command)
+        self._want_row(inputs)
+        self._latch_stops(inputs)
+        if self._emergency or self._quick:
+            self._stop()
+        else:
+            self._move(command)
+        return self._outputs()
+
+    def _checked(self, command: Any) -> Any:
+        """Return the command as far as it is finite, within the maximum, above the minimum and new."""
+        command, valid = self._finite(command)
+        magnitude = abs(command)
+        if magnitude < self._limits.minimum_command:
+            if magnitude > 0:
+                self._status |= _BELOW_MINIMUM
+            command = self._zero
+        command = self._resolved(command)
+        self._zero_commanded = valid and command == 0
+        if not valid:
+            self._invalid = True
+        elif self._zero_commanded:
+            self._invalid = False
+        if self._invalid:
+            self._status |= _COMMAND_INVALID
+        return self._zero if self._invalid or self._zero_commanded else command
+
+    def _finite(self, command: Any) -> tuple[Any, bool]:
+        """Clamp the command to the maximum; a command that is not finite becomes 0 and is not valid."""
+        limit = self._limits.max_command
+        if -limit <= command <= limit:
+            return command, True
+        if self._number.is_integer or abs(command) * self._number.scalar(0.5) < abs(command):
+            self._status |= _COMMAND_CLAMPED
+            return (limit if command > 0 else -limit), True
+        return self._zero, False
+
+    def _resolved(self, command: Any) -> Any:
+        """Hold the last command until it changes by the resolution; the maximum and 0 always arrive."""
+        resolution, magnitude = self._limits.command_resolution, abs(command)
+        if magnitude + magnitude < resolution:
+            self._held = self._zero
+        elif magnitude >= self._limits.max_command or abs(command - self._held) >= resolution:
+            self._held = command
+        return self._held
+
+    def _want_row(self, inputs: ShaperInput) -> None:
+        if inputs.selector < len(self._tables):
+            self._selected_row = inputs.selector
+        else:
+            self._status |= _SELECTOR_INVALID
+        self._wanted_row = self._selected_row
+        if not inputs.enable:
+            self._status |= _DISABLED
+            self._wanted_row = 0
+
+    def _latch_stops(self, inputs: ShaperInput) -> None:
+        if inputs.emergency_stop:
+            self._emergency = True
+        elif self._zero_commanded:
+            self._emergency = False
+        if inputs.quick_stop:
+            self._quick = True
+        elif self._zero_commanded and self._reference == 0:
+            self._quick = False
+
+    def _stop(self) -> None:
+        """Take the reference to 0 and what is pending with it: the shaper rests at the reference."""
+        if self._emergency:
+            self._reference = self._zero
+        else:
+            reach = abs(self._reference) - self._limits.quick_stop_step
+            if reach <= self._limits.landing_margin:
+                self._reference = self._zero
+            else:
+                self._reference = reach if self._reference > 0 else -reach
+        self._command = self._target = self._reference
+        self._still_ticks = self._last if self._reference == 0 else 0
+        self._inching = False
+        self._filter.rest(self._reference)
+
+    def _move(self, command: Any) -> None:
+        if self._is_settled:
+            self._inching = self._inches(self._command, command)
+            self._row = 0 if self._inching else self._wanted_row
+        self._accept(command)
+        before, self._command = self._command, ramped(self._command, self._target, self._limits)
+        self._still_ticks = min(self._still_ticks + 1, self._last) if self._command == before else 0
+        if self._still_ticks >= self._tables[self._row].tail_ticks:
+            self._filter.rest(self._command)
+            self._reference = self._command
+        else:
+            self._reference = self._filter.run(self._command, self._row)
+
+    def _accept(self, command: Any) -> None:
+        """Make the command the ramp's target, at once or, where amplitudes are negative, at rest only."""
+        wanted = command
+        if self._inching:
+            limit = self._limits.inching_command
+            wanted = min(max(command, -limit), limit)
+        if not self._tables[self._row].waits:
+            self._target = wanted
+        elif self._is_settled:
+            reverses = (self._command > 0 and wanted < 0) or (self._command < 0 and wanted > 0)
+            self._target = self._zero if reverses else wanted
+        if self._target != command:
+            self._status |= _COMMAND_WAITS
+
+    @property
+    def _is_settled(self) -> bool:
+        return self._still_ticks >= self._last
+
+    def _inches(self, command: Any, wanted: Any) -> bool:
+        limit = self._limits.inching_command
+        return bool(abs(command) <= limit and abs(wanted) <= limit and not command == wanted == 0)
+
+    def _row_at_rest(self, command: Any) -> int:
+        """Row that takes over if the command becomes 0 when settled at `command`."""
+        return 0 if self._inches(command, self._zero) else self._wanted_row
+
+    def _foretell(self) -> tuple[Any, int]:
+        """Sum of the references to come and ticks until the last, if the command is 0 from the next tick on."""
+        if self._emergency:
+            return self._zero, 0
+        if self._quick:
+            glide = self._quick_down(self._reference, self._zero)
+            return glide.total, glide.ticks
+        if self._tables[self._row].waits and not self._is_settled and self._target != 0:
+            return self._foretell_waiting()
+        row = self._row_at_rest(self._command) if self._is_settled else self._row
+        tail = self._tables[row].tail_ticks
+        down = self._slow_down(self._command, self._zero)
+        ticks = down.ticks + tail if down.ticks > 0 else max(tail - self._still_ticks, 0)
+        return self._filter.pending(row) + down.total, ticks
+
+    def _foretell_waiting(self) -> tuple[Any, int]:
+        """Foretell a stop that waits: the ramp completes, the shaper settles, and only then the 0 is accepted."""
+        target = self._target
+        glider = self._speed_up if abs(target) > abs(self._command) else self._slow_down
+        rise = glider(self._command, target)
+        hold = self._last if rise.ticks > 0 else self._last - self._still_ticks
+        down = self._slow_down(target, self._zero)
+        row = self._row_at_rest(target)
+        change = self._filter.rest_sum(target, row) - self._filter.rest_sum(target, self._row)
+        total = self._filter.pending(self._row) + rise.total
+        total = total + (self._number.scalar(hold) * target)
+        total = (total + change) + down.total
+        return total, rise.ticks + hold + down.ticks + self._tables[row].tail_ticks
+
+    def _outputs(self) -> ShaperOutput:
+        total, ticks = self._foretell()
+        stopped = self._emergency or self._quick
+        row = 0 if stopped else self._row
+        return ShaperOutput(
+            reference=self._reference,
+            stop_distance=self._units.distance(total),
+            stop_time_s=self._units.time_s(ticks),
+            stop_time_ticks=ticks,
+            residual_bound=self._bounds[row],
+            row=self._row,
+            settled=self._is_settled,
+            active=row > 0,
+            error=(self._status & _ERRORS) != 0,
+            status=self._full_status(),
+        )
+
+    def _full_status(self) -> int:
+        status = self._status
+        if self._row == 0:
+            status |= _UNSHAPED
+        if not self._inching and self._row != self._wanted_row:
+            status |= _ROW_WAITS
+        if self._quick:
+            status |= _QUICK_STOP
+        if self._emergency:
+            status |= _EMERGENCY_STOP
+        if self._inching:
+            status |= _INCHING
+        return status

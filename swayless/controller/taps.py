@@ -1,0 +1,196 @@
+"""Taps, rows and banks: impulses on the tick grid in a number type. Not for: finding them (that is design)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swayless.controller.number import NumberType, amplitudes_on_lattice
+from swayless.design.residual import residual_vibration
+from swayless.design.robustness import worst_residual
+from swayless.design.shaper import FloatArray, Guarantee
+from swayless.errors import ControllerError
+
+GUARANTEE_SLACK = 1e-4
+"""Relative excess of the tolerance that quantised amplitudes may show: a 24-bit lattice moves a residual by
+at most n 2**-24, 3e-7 for five taps, against tolerances of 1 % and more."""
+
+
+@dataclass(frozen=True, eq=False)
+class Taps:
+    """Impulses on the tick grid, exactly as a controller runs them.
+
+    Parameters
+    ----------
+    delays_ticks : ndarray of int64, shape (n,)
+        Delays, the first 0, strictly increasing.
+    amplitudes : ndarray, shape (n,)
+        Multiples of ``2**-number.amplitude_bits`` that sum to exactly 1, every partial sum within [0, 1].
+    tick_s : float
+        Length of a tick, > 0.
+    guarantee : Guarantee
+        What these very amplitudes hold.
+    number : NumberType
+        Type the controller calculates in.
+
+    Raises
+    ------
+    ControllerError
+        If an invariant does not hold.
+    """
+
+    delays_ticks: NDArray[np.int64]
+    amplitudes: FloatArray
+    tick_s: float
+    guarantee: Guarantee
+    number: NumberType
+
+    def __post_init__(self) -> None:
+        delays = np.array(self.delays_ticks, dtype=np.int64)
+        amplitudes = np.array(self.amplitudes, dtype=np.float64)
+        if delays.ndim != 1 or delays.shape != amplitudes.shape or delays.size == 0:
+            raise ControllerError("taps: delays and amplitudes must be non-empty and of one length")
+        if delays[0] != 0 or np.any(np.diff(delays) <= 0):
+            raise ControllerError(f"taps: delays must start at 0 and increase, got {delays.tolist()}")
+        scaled = amplitudes * 2.0**self.number.amplitude_bits
+        partial_sums = np.cumsum(amplitudes)
+        if np.any(scaled != np.round(scaled)) or partial_sums[-1] != 1.0:
+            raise ControllerError(f"taps: amplitudes do not sum to exactly 1 in {self.number.name}")
+        if partial_sums.min() < 0.0 or partial_sums.max() > 1.0:
+            raise ControllerError(
+                "taps: a step of the command would take the reference from "
+                f"{partial_sums.min():.6g} to {partial_sums.max():.6g} times the step; allowed is 0 to 1"
+            )
+        delays.flags.writeable = amplitudes.flags.writeable = False
+        object.__setattr__(self, "delays_ticks", delays)
+        object.__setattr__(self, "amplitudes", amplitudes)
+
+    @property
+    def times_s(self) -> FloatArray:
+        """Times of the taps, shape (n,)."""
+        return self.delays_ticks * self.tick_s
+
+    @property
+    def longest_delay_ticks(self) -> int:
+        """Delay of the last tap."""
+        return int(self.delays_ticks[-1])
+
+    @property
+    def duration_s(self) -> float:
+        """Delay of the last tap, in seconds."""
+        return self.longest_delay_ticks * self.tick_s
+
+    @property
+    def has_negative(self) -> bool:
+        """Whether an amplitude is negative: commands must then wait for rest."""
+        return bool(self.amplitudes.min() < 0.0)
+
+    @property
+    def numerators(self) -> tuple[int, ...]:
+        """Amplitudes as whole multiples of ``2**-number.amplitude_bits``."""
+        one = 1 << self.number.amplitude_bits
+        return tuple(int(a * one) for a in self.amplitudes.tolist())
+
+
+def quantised_taps(
+    delays_ticks: NDArray[np.int64], amplitudes: FloatArray, tick_s: float, guarantee: Guarantee, number: NumberType
+) -> Taps:
+    """Bring taps into a number type and prove their guarantee again on what results.
+
+    Parameters
+    ----------
+    delays_ticks, amplitudes : ndarray, shape (n,)
+        Taps as designed; the amplitudes sum to 1 but for rounding.
+    tick_s : float
+        Length of a tick.
+    guarantee : Guarantee
+        What the taps promise.
+    number : NumberType
+        Target type.
+
+    Raises
+    ------
+    ControllerError
+        If the quantised taps exceed the promised tolerance, or their partial sums leave [0, 1].
+    """
+    one = 1 << number.amplitude_bits
+    numerators = np.array(amplitudes_on_lattice(amplitudes, number.amplitude_bits))
+    kept = numerators != 0
+    kept[0] = True
+    taps = Taps(delays_ticks[kept], numerators[kept] / one, tick_s, guarantee, number)
+    mode = guarantee.mode
+    worst = max(
+        worst_residual(taps, guarantee.band, damping_ratio=mode.damping_ratio),
+        float(residual_vibration(taps, mode.frequency_hz, damping_ratio=mode.damping_ratio)),
+    )
+    if worst > guarantee.tolerance * (1.0 + GUARANTEE_SLACK):
+        raise ControllerError(
+            f"taps in {number.name} leave {100 * worst:.6g} % where {100 * guarantee.tolerance:.6g} % is promised "
+            f"between {guarantee.band.low_hz:.6g} and {guarantee.band.high_hz:.6g} Hz"
+        )
+    return taps
+
+
+@dataclass(frozen=True)
+class Row:
+    """One position of the knob.
+
+    Parameters
+    ----------
+    name : str
+        What the operator calls it.
+    family : str
+        Family of the shaper, for reports only.
+    taps : Taps
+        What runs.
+    """
+
+    name: str
+    family: str
+    taps: Taps
+
+
+@dataclass(frozen=True)
+class Bank:
+    """The rows of a machine; position 0, unshaped, is always there and not listed.
+
+    Parameters
+    ----------
+    rows : tuple of Row
+        Rows 1 to n; at least one, at most 254, all on one tick and in one number type.
+    selection : str
+        How a row is chosen: ``"knob"``.
+
+    Raises
+    ------
+    ControllerError
+        If the rows do not fit together.
+    """
+
+    rows: tuple[Row, ...]
+    selection: str = "knob"
+
+    def __post_init__(self) -> None:
+        if not 1 <= len(self.rows) <= 254:
+            raise ControllerError(f"a bank has 1 to 254 rows, got {len(self.rows)}")
+        if len({(row.taps.tick_s, row.taps.number.name) for row in self.rows}) != 1:
+            raise ControllerError("all rows of a bank must have one tick and one number type")
+        if self.selection != "knob":
+            raise ControllerError(f"selection = {self.selection!r}: this version knows 'knob' only")
+
+    @property
+    def tick_s(self) -> float:
+        """Length of a tick."""
+        return self.rows[0].taps.tick_s
+
+    @property
+    def number(self) -> NumberType:
+        """Number type of all rows."""
+        return self.rows[0].taps.number
+
+    @property
+    def longest_delay_ticks(self) -> int:
+        """Longest delay of any row: after as many ticks without change, the block has settled."""
+        return max(row.taps.longest_delay_ticks for row in self.rows)

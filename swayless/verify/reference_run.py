@@ -1,0 +1,46 @@
+"""Run the Python reference of a command shaper over a stimulus. Not for: generated code."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swayless.controller.command_shaper import CommandShaper, ShaperInput
+from swayless.controller.settings import ShaperSettings
+from swayless.verify.stimulus import output_dtype
+
+
+def run_reference(settings: ShaperSettings, inputs: NDArray[np.void]) -> NDArray[np.void]:
+    """Outputs of the reference, tick by tick.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    inputs : structured ndarray, shape (ticks,)
+        Stimulus.
+
+    Returns
+    -------
+    structured ndarray, shape (ticks,)
+        Fields as in `output_dtype`.
+    """
+    shaper = CommandShaper(settings)
+    scalar = settings.number.scalar
+    outputs = np.empty(inputs.size, dtype=output_dtype(settings.number))
+    columns = [inputs[name].tolist() for name in ("command", "selector", "enable", "quick_stop", "emergency_stop")]
+    for tick, (command, selector, enable, quick, emergency) in enumerate(zip(*columns, strict=True)):
+        out = shaper.step(ShaperInput(scalar(command), selector, enable, quick, emergency))
+        outputs[tick] = (
+            out.reference,
+            out.stop_distance,
+            out.stop_time_s,
+            out.stop_time_ticks,
+            out.residual_bound,
+            out.row,
+            out.settled,
+            out.active,
+            out.error,
+            out.status,
+        )
+    return outputs
