@@ -223,6 +223,32 @@ class CModel:
         """The same, for a stop at once."""
         return ", s->command" if self.features.has_inching else ""
 
+    # ---- example --------------------------------------------------------------------------------------------------
+
+    @property
+    def example_press_ticks(self) -> int:
+        """Ticks of the example's jog: until the reference has arrived at the command."""
+        limits = self.settings.limits
+        ramp_ticks = int(limits.max_command / limits.acceleration_step) + 1
+        return ramp_ticks + self.settings.longest_delay_ticks
+
+    @property
+    def example_ticks(self) -> int:
+        """Ticks of the example: until the reference is 0 again."""
+        limits = self.settings.limits
+        ramp_ticks = int(limits.max_command / limits.deceleration_step) + 1
+        return self.example_press_ticks + ramp_ticks + 2 * self.settings.longest_delay_ticks
+
+    @property
+    def example_format(self) -> str:
+        """Format of one line of the example."""
+        return '"%lu %ld %ld %ld\\n"' if self.is_integer else '"%lu %.9g %.9g %.9g\\n"'
+
+    @property
+    def example_cast(self) -> str:
+        """Cast that the format needs."""
+        return {"int32": "(long)", "float": "(double)", "double": ""}[self.settings.number.name]
+
     # ---- structures -----------------------------------------------------------------------------------------------
 
     @property

@@ -1,0 +1,93 @@
+"""From a design file to what runs: taps and limits in a number type. Not for: text or figures."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swayless.controller import (
+    Bank,
+    Row,
+    ShaperSettings,
+    SpeedLimits,
+    command_limits,
+    number_type,
+    quantised_taps,
+)
+from swayless.design import Guarantee, Shaper
+from swayless.errors import ControllerError
+from swayless.machine.design_document import DesignFile, DriveRecord, GuaranteeRecord, ShaperRecord
+from swayless.plant import Band, Mode
+
+
+def shaper_settings(design: DesignFile, *, number: str | None = None) -> ShaperSettings:
+    """Make the constants of the command shaper that a design file describes.
+
+    Parameters
+    ----------
+    design : DesignFile
+        A design with taps.
+    number : str or None
+        Number type; None takes the design's own.
+
+    Raises
+    ------
+    ControllerError
+        If the design has no tick, or it cannot run in the number type with every guarantee kept.
+    """
+    if design.tick_s is None:
+        raise ControllerError("the design has no tick: design it with --tick, for instance --tick '10 ms'")
+    kind = number_type(number or design.number)
+    rows = []
+    for shaper in design.shapers:
+        assert shaper.taps is not None  # noqa: S101 - the file has taps exactly where it has a tick
+        guarantee = _guarantee(shaper, shaper.taps.guarantee)
+        delays, amplitudes = np.array(shaper.taps.delays_ticks), np.array(shaper.taps.amplitudes)
+        try:
+            taps = quantised_taps(delays, amplitudes, design.tick_s, guarantee, kind)
+        except ControllerError as error:
+            raise ControllerError(f'row "{shaper.name}": {error}') from error
+        rows.append(Row(shaper.name, shaper.family, taps))
+    limits = command_limits(_speed_limits(design.drive, kind.is_integer), tick_s=design.tick_s, number=kind)
+    return ShaperSettings(Bank(tuple(rows)), limits)
+
+
+def stored_shapers(design: DesignFile) -> tuple[Shaper, ...]:
+    """Give the shapers of a design file in continuous time, as stored.
+
+    Parameters
+    ----------
+    design : DesignFile
+        Any design.
+    """
+    return tuple(
+        Shaper(
+            np.array(shaper.times_s),
+            np.array(shaper.amplitudes) / np.sum(shaper.amplitudes),
+            shaper.family,
+            _guarantee(shaper, shaper.guarantee),
+            design.source or design.generator,
+        )
+        for shaper in design.shapers
+    )
+
+
+def _guarantee(shaper: ShaperRecord, stored: GuaranteeRecord) -> Guarantee:
+    mode = Mode(shaper.mode.frequency_hz, shaper.mode.damping_ratio)
+    return Guarantee(stored.tolerance, mode, Band(*stored.frequency_hz), stored.worst_residual_ratio)
+
+
+def _speed_limits(drive: DriveRecord, is_integer: bool) -> SpeedLimits:
+    if is_integer and drive.counts_per_m_s is None:
+        raise ControllerError("number = 'int32' calculates in counts: give counts_per_m_s in [drive]")
+    in_counts = is_integer or drive.units != "m/s"
+    return SpeedLimits(
+        max_speed_m_s=drive.max_speed_m_s,
+        acceleration_m_s2=drive.acceleration_m_s2,
+        deceleration_m_s2=drive.deceleration_m_s2,
+        quick_stop_m_s2=drive.quick_stop_m_s2,
+        minimum_speed_m_s=drive.minimum_speed_m_s,
+        inching_speed_m_s=drive.inching_speed_m_s,
+        command_resolution_m_s=drive.command_resolution_m_s,
+        units=("counts" if drive.units == "m/s" else drive.units) if in_counts else "m/s",
+        units_per_m_s=(drive.counts_per_m_s or 1.0) if in_counts else 1.0,
+    )

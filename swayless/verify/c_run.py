@@ -1,0 +1,94 @@
+"""Compile generated C once and run it over stimuli. Not for: judging what comes out."""
+
+from __future__ import annotations
+
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swayless.codegen.render import GeneratedFile
+from swayless.controller.number import NumberType
+from swayless.errors import VerificationError
+from swayless.verify.stimulus import output_dtype
+from swayless.verify.toolchain import Compiler
+
+RUN_TIMEOUT_S = 300.0
+"""A million ticks take a fraction of a second."""
+
+
+class CompiledBlock:
+    """A command shaper in C, compiled; a context manager that owns a temporary folder.
+
+    Parameters
+    ----------
+    files : sequence of GeneratedFile
+        Header, source and example; every source is compiled with strict warnings.
+    harness : GeneratedFile
+        The program that feeds the block.
+    compiler : Compiler
+        What compiles them.
+    number : NumberType
+        Number type of the block.
+    """
+
+    def __init__(
+        self, files: Sequence[GeneratedFile], harness: GeneratedFile, compiler: Compiler, number: NumberType
+    ) -> None:
+        self._files, self._harness, self._compiler, self._number = files, harness, compiler, number
+        self._folder = tempfile.TemporaryDirectory(prefix="swayless-")
+        self._program = Path(self._folder.name) / "block.exe"
+
+    def __enter__(self) -> CompiledBlock:
+        """Write the files and compile them."""
+        folder = Path(self._folder.name)
+        try:
+            for file in (*self._files, self._harness):
+                (folder / file.path).write_text(file.text, encoding="ascii", newline="\n")
+            sources = [folder / file.path for file in self._files if file.path.endswith(".c")]
+            blocks = [source for source in sources if not source.stem.endswith("_example")]
+            self._compiler.build([folder / self._harness.path], blocks, self._program)
+            for example in (source for source in sources if source not in blocks):
+                self._compiler.build([], [example, *blocks], folder / "example.exe")
+        except BaseException:
+            self._folder.cleanup()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Remove the folder."""
+        self._folder.cleanup()
+
+    def run(self, inputs: NDArray[np.void]) -> NDArray[np.void]:
+        """Run the block from power-on over a stimulus.
+
+        Parameters
+        ----------
+        inputs : structured ndarray, shape (ticks,)
+            Fields as in `input_dtype`.
+
+        Returns
+        -------
+        structured ndarray, shape (ticks,)
+            Fields as in `output_dtype`.
+
+        Raises
+        ------
+        VerificationError
+            If the program fails.
+        """
+        try:
+            done = subprocess.run(  # noqa: S603 - the program compiled above
+                [str(self._program)], input=inputs.tobytes(), capture_output=True, check=False, timeout=RUN_TIMEOUT_S
+            )
+        except subprocess.TimeoutExpired as error:
+            raise VerificationError(f"the compiled block did not end within {RUN_TIMEOUT_S:.0f} s") from error
+        if done.returncode != 0:
+            raise VerificationError(f"the compiled block ended with code {done.returncode}")
+        return np.frombuffer(done.stdout, dtype=output_dtype(self._number))
