@@ -72,6 +72,44 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
     )
 
 
+def design_mode(
+    row: RowSection, *, drive: DriveSection, name: str, tick_s: float | None, number: str
+) -> DesignFile:
+    """Design one shaper for one mode, without a machine file.
+
+    Parameters
+    ----------
+    row : RowSection
+        Family, mode, tolerance and parameters.
+    drive : DriveSection
+        Limits of the command, for generated code.
+    name : str
+        Prefix of generated symbols.
+    tick_s : float or None
+        Length of a tick; None leaves the design in continuous time.
+    number : str
+        Number type of generated code.
+
+    Raises
+    ------
+    DesignError
+        If the family does not exist for the mode or tolerance, or the tick is too coarse.
+    """
+    frequency_hz = row.mode.frequency_hz
+    kind, rope_m = ("mode", None) if row.rope_length_m is None else ("crane", (row.rope_length_m, row.rope_length_m))
+    return DesignFile(
+        name=name,
+        generator=GENERATOR,
+        source=None,
+        law="fixed",
+        tick_s=tick_s,
+        number=number,
+        plant=PlantRecord(kind, rope_m, (frequency_hz, frequency_hz), row.mode.damping_ratio),
+        drive=drive_record(drive),
+        shapers=(design_row(row, tick_s=tick_s),),
+    )
+
+
 def design_row(row: RowSection, *, tick_s: float | None) -> ShaperRecord:
     """Design one row, and solve it on the tick grid where there is one.
 

@@ -13,7 +13,7 @@ from swayless.controller import (
     number_type,
     quantised_taps,
 )
-from swayless.design import Guarantee, Shaper
+from swayless.design import GridShaper, Guarantee, Shaper
 from swayless.errors import ControllerError
 from swayless.machine.design_document import DesignFile, DriveRecord, GuaranteeRecord, ShaperRecord
 from swayless.plant import Band, Mode
@@ -68,6 +68,26 @@ def stored_shapers(design: DesignFile) -> tuple[Shaper, ...]:
             design.source or design.generator,
         )
         for shaper in design.shapers
+    )
+
+
+def stored_taps(design: DesignFile) -> tuple[GridShaper, ...]:
+    """Give the taps of a design file, as stored.
+
+    Parameters
+    ----------
+    design : DesignFile
+        A design with a tick.
+    """
+    return tuple(
+        GridShaper(
+            np.array(shaper.taps.delays_ticks),
+            np.array(shaper.taps.amplitudes),
+            design.tick_s,
+            _guarantee(shaper, shaper.taps.guarantee),
+        )
+        for shaper in design.shapers
+        if shaper.taps is not None and design.tick_s is not None
     )
 
 

@@ -1,0 +1,80 @@
+"""`swayless generate`: code from a design file."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from swayless.cli.options import CheckOption, DesignArgument, JsonOption, NumberOption
+
+if TYPE_CHECKING:
+    from swayless.codegen import Provenance
+    from swayless.machine import DesignFile
+
+
+class TargetName(StrEnum):
+    """Targets of code generation."""
+
+    c = "c"
+    st = "st"
+
+
+def generate(
+    target: Annotated[TargetName, typer.Argument(help="Language.", show_default=False)],
+    file: DesignArgument,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Directory; it belongs to the generator.")
+    ],
+    number: NumberOption = None,
+    check: CheckOption = False,
+    json: JsonOption = False,
+) -> None:
+    """Generate C or Structured Text from a design file.
+
+    The same design file gives the same bytes, on every machine and for ever.
+
+    Example:  swayless generate c crane.design.json -o src/crane --number float
+    """
+    from swayless.cli.console import print_json
+    from swayless.cli.output_directory import differences, write_files
+    from swayless.codegen import generate as generate_files
+    from swayless.machine import load_design
+    from swayless.machine.running import shaper_settings
+
+    design = load_design(file)
+    settings = shaper_settings(design, number=number and number.value)
+    made = generate_files(settings, provenance(design), target.value)
+    files = {item.path: item.text.encode("ascii") for item in made}
+    found = differences(output, files) if check else []
+    if not check:
+        write_files(output, files)
+    if json:
+        print_json({"directory": str(output), "files": list(files), "checked": check, "differences": found})
+    else:
+        for line in found or [f"{output / path}: {'as generated' if check else 'written'}" for path in files]:
+            typer.echo(line)
+    if found:
+        raise typer.Exit(1)
+
+
+def provenance(design: DesignFile) -> Provenance:
+    """Say where generated code comes from.
+
+    Parameters
+    ----------
+    design : DesignFile
+        The design that it is made of.
+    """
+    from swayless.codegen import Provenance
+    from swayless.machine import design_sha256
+
+    return Provenance(
+        name=design.name,
+        generator=design.generator,
+        source=design.source,
+        design_sha256=design_sha256(design),
+        hangs_on_rope=design.plant.kind == "crane",
+    )
