@@ -284,6 +284,8 @@ class CModel:
         if self.features.has_resolution:
             members.append(CField(real, "held", "command held until it changes by the resolution", "", self.zero))
         members += [
+            CField(f"{self.name}_shaper_input_t", "input", "last inputs"),
+            CField(f"{self.name}_shaper_output_t", "output", "last outputs"),
             CField(real, "ring", "last ramped commands", f"[{self.macro}_SHAPER_RING]"),
             CField("uint32_t", "head", "cell of the newest command", "", last),
             CField("uint32_t", "still_ticks", "ticks without change, up to the longest delay", "", last),
@@ -292,6 +294,8 @@ class CModel:
             CField("uint8_t", "selected_row", "last valid selector", "", "0u"),
             CField("uint8_t", "wanted_row", "row that takes over when settled", "", "0u"),
             CField("bool", "lapped", "the ring is full of commands since the last rest", "", "false"),
+            CField("bool", "foretold", "settled, and the stop is foretold", "", "false"),
+            CField("bool", "idle", "the last tick began and ended settled", "", "false"),
             CField("bool", "zero_commanded", "the command is a valid 0", "", "false"),
             CField("bool", "invalid", "a command was not finite", "", "false"),
             CField("bool", "quick", "quick stop is latched", "", "false"),
@@ -304,12 +308,24 @@ class CModel:
     @cached_property
     def ram_bytes(self) -> int:
         """Upper bound of the size of the state, with natural alignment."""
+        return self._layout(self.state)[0]
+
+    def _layout(self, members: Sequence[CField]) -> tuple[int, int]:
+        """Size and alignment of a structure, with natural alignment of its members."""
         size, widest = 0, 1
-        for member in self.state:
-            width = SIZES_BYTES[self.c_real if member.c_type.endswith("_real_t") else member.c_type]
-            size = -(-size // width) * width + width * (self.ring_length if member.c_array else 1)
-            widest = max(widest, width)
-        return -(-size // widest) * widest
+        for member in members:
+            width, alignment = self._size_of(member.c_type)
+            size = -(-size // alignment) * alignment + width * (self.ring_length if member.c_array else 1)
+            widest = max(widest, alignment)
+        return -(-size // widest) * widest, widest
+
+    def _size_of(self, c_type: str) -> tuple[int, int]:
+        if c_type.endswith("_input_t"):
+            return self._layout(self.inputs)
+        if c_type.endswith("_output_t"):
+            return self._layout(self.outputs)
+        width = SIZES_BYTES[self.c_real if c_type.endswith("_real_t") else c_type]
+        return width, width
 
     # ---- constants and tables -------------------------------------------------------------------------------------
 

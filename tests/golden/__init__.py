@@ -1,0 +1,1 @@
+"""Golden files: what the command line makes of every example, byte for byte."""
