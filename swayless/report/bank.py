@@ -14,7 +14,7 @@ from swayless.plant.response import VelocityProfile
 from swayless.report.abscissa import ABSCISSAE, Abscissa, Over
 from swayless.report.plotted import PlottedShaper
 from swayless.report.ranges import Range
-from swayless.report.sensitivity import add_feet, draw_residuals, show_near_tolerance
+from swayless.report.sensitivity import draw_residuals, show_near_tolerance
 from swayless.report.strip import LANE_HEIGHT_IN, draw_held_bands, ends, name_lanes
 from swayless.report.style import ALARM, figure_style, line_style, new_figure, settle
 
@@ -70,8 +70,6 @@ def bank_figure(
         draw_residuals(curves, rows, abscissa, points)
         show_near_tolerance(curves, rows)
         _draw_coverage(curves, strip, rows, abscissa, whole)
-        if over == "rope_length":
-            add_feet(curves)
         _draw_stairs(stairs, rows)
         return settle(figure)
 

@@ -62,28 +62,31 @@ def response_figure(
     """
     command = PlottedCommand() if command is None else command
     mode = shaper.guarantee.mode if mode is None else mode
+    with figure_style():
+        return settle(_drawn(shaper, command, mode))
+
+
+def _drawn(shaper: PlottedShaper, command: PlottedCommand, mode: Mode) -> Figure:
+    """Draw the panel with the speeds and the one with the swings."""
     given = command_profile(command, shaper)
     reference = shaped_profile(given, shaper.impulses)
     time_s = _times_s(reference, mode)
     waits = ", release waits for rest" if accepted_hold_s(command, shaper) > command.hold_s else ""
-    with figure_style():
-        figure, (speeds, swings) = new_figure(f"{shaper.label}: {command.title}", (2.1, 2.9), sharex=True)
-        _draw_velocity(speeds, given, time_s, label="command" + waits, look=_UNSHAPED)
-        _draw_velocity(speeds, reference, time_s, label="reference", look=_SHAPED)
-        speeds.set_ylabel("Speed (m/s)")
-        legend_above(speeds)
-        for velocity, label, look in (
-            (given, "without shaper", _UNSHAPED),
-            (reference, "with shaper", _SHAPED),
-        ):
-            percent = 100.0 / command.speed_m_s * swing_state(mode, velocity, time_s)
-            _draw_swing(swings, time_s, percent, last_change_s=velocity.times_s[-1], label=label, look=look)
-        swings.set_ylabel("Swing (% of an unshaped jump's)")
-        swings.set_xlabel("Time (s)")
-        swings.set_xlim(time_s[0], time_s[-1])
-        speeds.set_title(f"{mode.frequency_hz:.4g} Hz, damping ratio {mode.damping_ratio:.3g}", loc="right")
-        legend_above(swings)
-        return settle(figure)
+    figure, (speeds, swings) = new_figure(f"{shaper.label}: {command.title}", (2.1, 2.9), sharex=True)
+    _draw_velocity(speeds, given, time_s, label="command" + waits, look=_UNSHAPED)
+    _draw_velocity(speeds, reference, time_s, label="reference", look=_SHAPED)
+    for velocity, label, look in ((given, "without", _UNSHAPED), (reference, "with", _SHAPED)):
+        percent = 100.0 / command.speed_m_s * swing_state(mode, velocity, time_s)
+        last_change_s = velocity.times_s[-1]
+        _draw_swing(swings, time_s, percent, last_change_s=last_change_s, label=f"{label} shaper", look=look)
+    speeds.set_title(f"{mode.frequency_hz:.4g} Hz, damping ratio {mode.damping_ratio:.3g}", loc="right")
+    speeds.set_ylabel("Speed (m/s)")
+    swings.set_ylabel("Swing (% of an unshaped jump's)")
+    swings.set_xlabel("Time (s)")
+    swings.set_xlim(time_s[0], time_s[-1])
+    for axes in (speeds, swings):
+        legend_above(axes)
+    return figure
 
 
 def _times_s(reference: VelocityProfile, mode: Mode) -> FloatArray:

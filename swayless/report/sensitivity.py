@@ -94,24 +94,27 @@ def sensitivity_figure(
     """
     if not shapers:
         raise DesignError("sensitivity figure: needs at least one design, got none")
-    abscissa = ABSCISSAE[over]
-    closeup = span is None and definition == "kriikku"
-    span = abscissa.span(shapers) if span is None else span
-    points = abscissa.samples(span, shapers)
-    labels = [shaper.label for shaper in shapers]
     with figure_style():
-        heights_in = (3.4, 0.6 + LANE_HEIGHT_IN * len(shapers))
-        title = f"{_RESIDUALS[definition][0].removesuffix(' (%)')} over {abscissa.title.lower()}"
-        figure, (curves, strip) = new_figure(title, heights_in, labels=labels, sharex=True)
-        draw_residuals(curves, shapers, abscissa, points, definition)
-        if closeup:
-            show_near_tolerance(curves, shapers)
-        draw_held_bands(strip, shapers, abscissa)
-        strip.set_title("residual vibration held within the tolerance")
-        strip.set_xlim(*span)
-        if over == "rope_length":
-            add_feet(curves)
-        return settle(figure)
+        return settle(_drawn(shapers, ABSCISSAE[over], span, definition))
+
+
+def _drawn(
+    shapers: Sequence[PlottedShaper], abscissa: Abscissa, span: Range | None, definition: Definition
+) -> Figure:
+    """Draw the panel with the curves and the strip with the bands."""
+    shown = abscissa.span(shapers) if span is None else span
+    points = abscissa.samples(shown, shapers)
+    title = f"{_RESIDUALS[definition][0].removesuffix(' (%)')} over {abscissa.title.lower()}"
+    heights_in = (3.4, 0.6 + LANE_HEIGHT_IN * len(shapers))
+    labels = [shaper.label for shaper in shapers]
+    figure, (curves, strip) = new_figure(title, heights_in, labels=labels, sharex=True)
+    draw_residuals(curves, shapers, abscissa, points, definition)
+    if span is None and definition == "kriikku":
+        show_near_tolerance(curves, shapers)
+    draw_held_bands(strip, shapers, abscissa)
+    strip.set_title("residual vibration held within the tolerance")
+    strip.set_xlim(*shown)
+    return figure
 
 
 def draw_residuals(
@@ -139,6 +142,8 @@ def draw_residuals(
     legend_beside(axes, lines)
     axes.set_ylabel(title)
     axes.set_ylim(bottom=0.0)
+    if abscissa.unit == "m":
+        _add_feet(axes)
 
 
 def show_near_tolerance(axes: Axes, shapers: Sequence[PlottedShaper]) -> None:
@@ -147,7 +152,7 @@ def show_near_tolerance(axes: Axes, shapers: Sequence[PlottedShaper]) -> None:
     axes.set_ylim(top=min(axes.get_ylim()[1], most))
 
 
-def add_feet(axes: Axes) -> None:
+def _add_feet(axes: Axes) -> None:
     """Add a second axis above, in feet."""
     feet = axes.secondary_xaxis("top", functions=(_feet, _metres))
     feet.xaxis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 5, 10]))
