@@ -1,0 +1,187 @@
+"""The machine file: one TOML file that describes a crane or an arm, its drive, its controller and its knob.
+
+Every problem of a file is reported at once. Not for: designing what the file asks for.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from swayless.errors import FileError
+from swayless.machine.checks import machine_name
+from swayless.machine.controller_section import ControllerSection, check_counts, read_controller
+from swayless.machine.drive_section import DriveSection, read_drive
+from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
+from swayless.machine.problems import RefusedError, Report, Table, plain, shown
+from swayless.machine.row_section import RowSection, read_row
+from swayless.machine.source import read_source
+
+MAX_BYTES = 1_000_000
+MAX_ROWS = 8
+_PLANT_KINDS: tuple[PlantKind, ...] = ("crane", "arm")
+_NEEDED = {"controller": "[controller]", "row": "[[row]]"}
+_AT_LINE = re.compile(r"(.*) \(at line (\d+), column (\d+)\)")
+_NAKED_QUANTITY = re.compile(r"=[^\"'#]*[0-9.]\s*[A-Za-z%]")
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A machine as its file describes it, in SI.
+
+    Parameters
+    ----------
+    name : str
+        Prefix of every generated symbol.
+    source : str
+        Base name of the file, for the provenance of what is generated.
+    plant : PlantSection
+        What swings.
+    drive : DriveSection
+        What the command is in, and its limits.
+    controller : ControllerSection
+        Tick, number type and law.
+    rows : tuple of RowSection
+        The knob's positions from 1 on; position 0 is unshaped.
+    """
+
+    name: str
+    source: str
+    plant: PlantSection
+    drive: DriveSection
+    controller: ControllerSection
+    rows: tuple[RowSection, ...]
+
+
+def load_machine(path: Path | str) -> Machine:
+    """Load a machine file.
+
+    Parameters
+    ----------
+    path : Path or str
+        A TOML file; ``docs/machine-file.md`` says what stands in it.
+
+    Raises
+    ------
+    FileError
+        With every problem found: file, key, value and what is allowed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from swayless.machine import example_text
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "crane.toml")
+    ...     _ = path.write_text(example_text("srtc-gantry"))
+    ...     machine = load_machine(path)
+    >>> machine.name, machine.controller.tick_s, [row.name for row in machine.rows]
+    ('srtc_gantry', 0.01, ['long', 'middle', 'short'])
+    """
+    path = Path(path)
+    document = _parse(path, read_source(path, max_bytes=MAX_BYTES))
+    report = Report(str(path))
+    machine = _read_machine(Table(document, report, ""), path.name)
+    if machine is None or report.problems:
+        raise FileError(report.problems)
+    return machine
+
+
+def _parse(path: Path, text: str) -> dict[str, object]:
+    try:
+        document = tomllib.loads(text)
+    except RecursionError as error:
+        raise FileError([f"{path}: not valid TOML: nested too deeply"]) from error
+    except ValueError as error:
+        raise FileError([f"{path}: {_syntax_problem(text, f'{error}')}"]) from error
+    if not document:
+        needs = "name, [crane] or [arm], [controller] and at least one [[row]]"
+        hint = "'swayless init' writes a commented file to start from"
+        raise FileError([f"{path}: is empty: a machine file needs {needs}; {hint}"])
+    return document
+
+
+def _syntax_problem(text: str, message: str) -> str:
+    """Put the line and its text beside what the parser says."""
+    match = _AT_LINE.fullmatch(message)
+    if match is None:
+        return f"not valid TOML: {message}"
+    line = text.split("\n")[int(match[2]) - 1].strip()
+    hint = '; a quantity with a unit stands in quotes: "29 ft"' if _NAKED_QUANTITY.search(line) else ""
+    return f"line {match[2]}, column {match[3]}: {line[:60]!a}: not valid TOML: {match[1]}{hint}"
+
+
+def _read_machine(root: Table, source: str) -> Machine | None:
+    name = root.need("name", machine_name)
+    kind = _plant_kind(root)
+    _check_sections(root)
+    plant_table, controller_table = _section(root, kind, None), _section(root, "controller", None)
+    drive_table = _section(root, "drive", {})
+    plant = read_plant(kind, plant_table)
+    drive = read_drive(kind, plant_table, drive_table)
+    controller = read_controller(controller_table)
+    if drive is not None and controller_table.raw.get("number") == "int32":
+        check_counts(drive_table, drive)
+    rows = _read_rows(kind, root, damping_ratio=plant.damping_ratio if plant else 0.0)
+    for table in (root, plant_table, drive_table, controller_table):
+        table.close()
+    if name is None or plant is None or drive is None or controller is None:
+        return None
+    return Machine(name, source, plant, drive, controller, rows)
+
+
+def _plant_kind(root: Table) -> PlantKind:
+    """Find which plant section stands; without one, go on as for a crane to find what else is wrong."""
+    return "arm" if "arm" in root.raw and "crane" not in root.raw else "crane"
+
+
+def _check_sections(root: Table) -> None:
+    """Report sections that are missing, or that exclude each other."""
+    root.asked.extend(_PLANT_KINDS)
+    present = sum(kind in root.raw for kind in _PLANT_KINDS)
+    if present != 1:
+        found = "both are there" if present else "none is there"
+        root.place("[crane] or [arm]").problem(f"exactly one of these sections is needed, {found}")
+    for key, heading in _NEEDED.items():
+        if key not in root.raw:
+            root.place(heading).problem("this section is missing")
+
+
+def _section(root: Table, key: str, default: dict[str, object] | None) -> Table:
+    """Table of a section; an absent or broken one is reported once, and its keys to nobody."""
+    raw = root.take(key, _as_section, default)
+    return Table({}, Report("nobody"), "") if raw is None else Table(raw, root.report, f"[{key}] ")
+
+
+@plain
+def _as_section(value: object) -> dict[str, object]:
+    if not isinstance(value, dict):
+        raise RefusedError("must be a section of its own, with its name in brackets")
+    return value
+
+
+@plain
+def _as_rows(value: object) -> list[dict[str, object]]:
+    rows = value if isinstance(value, list) else []
+    if not rows or not all(isinstance(row, dict) for row in rows):
+        raise RefusedError("must be sections [[row]], in two brackets, one for each knob position")
+    return rows
+
+
+def _read_rows(kind: PlantKind, root: Table, *, damping_ratio: float) -> tuple[RowSection, ...]:
+    seen: dict[str, int] = {}
+    rows = []
+    tables = root.take("row", _as_rows, None) or []
+    if len(tables) > MAX_ROWS:
+        root.place("[[row]]").problem(f"stands {len(tables)} times; at most {MAX_ROWS} are allowed")
+    for position, raw in enumerate(tables[:MAX_ROWS], start=1):
+        name = raw.get("name")
+        known_as = f" ({shown(name)})" if isinstance(name, str) else ""
+        table = Table(raw, root.report, f"[[row]] {position}{known_as} ")
+        rows.append(read_row(kind, table, damping_ratio=damping_ratio))
+        table.close()
+        first = seen.setdefault(str(name).lower(), position)
+        if first != position and isinstance(name, str):
+            table.place("name").problem(f"is also the name of [[row]] {first}")
+    return tuple(row for row in rows if row is not None)
