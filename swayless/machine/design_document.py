@@ -1,0 +1,207 @@
+"""What a design file holds, and the rules that it keeps: the schema ``swayless.design/1`` as dataclasses.
+
+Every class is one object of the JSON document, and every field one key; ``docs/design-file.md`` explains
+them.
+
+Not for: making a design; see `swayless.design` and `swayless.controller`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated, TypeAlias
+
+from swayless.controller.number import NUMBER_TYPES
+from swayless.machine.controller_section import LAWS
+from swayless.machine.design_members import (
+    AMPLITUDES,
+    BAND,
+    DAMPING,
+    DELAYS,
+    FINITE,
+    LABEL,
+    NAME,
+    NOT_NEGATIVE,
+    ORDER,
+    POSITIVE,
+    RANGE,
+    TAP_AMPLITUDES,
+    TEXT,
+    TIMES,
+    TOLERANCE,
+    word,
+)
+from swayless.machine.record import Record, one, optional, several
+from swayless.machine.stored_numbers import nearest_12
+
+SCHEMA = "swayless.design/1"
+PLANT_KINDS = ("crane", "arm", "mode")
+MAX_SHAPERS = 8
+
+CLOSE = 1e-9
+"""Relative difference that 12 digits may leave between a number and the numbers that it follows from."""
+
+WORST_SLACK = 1e-6
+"""By how much of the tolerance a worst residual may stand above it: rounding of a solver's last step."""
+
+Pair: TypeAlias = tuple[float, float]
+Floats: TypeAlias = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class PlantRecord(Record):
+    """What the design is for: a crane, an arm, or one mode without a machine."""
+
+    kind: Annotated[str, word("kind", PLANT_KINDS)]
+    rope_length_m: Annotated[Pair | None, optional(RANGE)]
+    frequency_hz: Annotated[Pair, RANGE]
+    damping_ratio: Annotated[float, DAMPING]
+
+
+@dataclass(frozen=True)
+class DriveRecord(Record):
+    """What the command is in, and its limits; the fields are those of `DriveSection`."""
+
+    units: Annotated[str, LABEL]
+    counts_per_m_s: Annotated[float | None, optional(POSITIVE)]
+    max_speed_m_s: Annotated[float, POSITIVE]
+    acceleration_m_s2: Annotated[float | None, optional(POSITIVE)]
+    deceleration_m_s2: Annotated[float | None, optional(POSITIVE)]
+    quick_stop_m_s2: Annotated[float | None, optional(POSITIVE)]
+    minimum_speed_m_s: Annotated[float, NOT_NEGATIVE]
+    inching_speed_m_s: Annotated[float, NOT_NEGATIVE]
+    command_resolution_m_s: Annotated[float, NOT_NEGATIVE]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require the small speeds to be below the full speed."""
+        for key in ("minimum_speed_m_s", "inching_speed_m_s", "command_resolution_m_s"):
+            if getattr(self, key) >= self.max_speed_m_s:
+                yield key, f"must be below max_speed_m_s, {self.max_speed_m_s!r}"
+
+
+@dataclass(frozen=True)
+class ModeRecord(Record):
+    """The mode that a shaper is made for, and the rope that has it, if one was given."""
+
+    frequency_hz: Annotated[float, POSITIVE]
+    damping_ratio: Annotated[float, DAMPING]
+    rope_length_m: Annotated[float | None, optional(POSITIVE)]
+
+
+@dataclass(frozen=True)
+class GuaranteeRecord(Record):
+    """What impulses hold: at most `tolerance` in the band, and on the ropes that have its frequencies."""
+
+    tolerance: Annotated[float, TOLERANCE]
+    frequency_hz: Annotated[Pair, BAND]
+    rope_length_m: Annotated[Pair, BAND]
+    worst_residual_ratio: Annotated[float, NOT_NEGATIVE]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require the worst residual to be within the tolerance."""
+        if self.worst_residual_ratio > self.tolerance * (1.0 + WORST_SLACK):
+            yield (
+                "worst_residual_ratio",
+                f"{self.worst_residual_ratio!r} is above the tolerance {self.tolerance!r}",
+            )
+
+
+@dataclass(frozen=True)
+class TapsRecord(Record):
+    """The impulses on the tick grid, which is what runs, and what they hold."""
+
+    delays_ticks: Annotated[tuple[int, ...], DELAYS]
+    amplitudes: Annotated[Floats, TAP_AMPLITUDES]
+    duration_s: Annotated[float, NOT_NEGATIVE]
+    overtravel_s: Annotated[float, FINITE]
+    guarantee: Annotated[GuaranteeRecord, one(GuaranteeRecord)]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require one amplitude for each delay."""
+        yield from _lengths("delays_ticks", self.delays_ticks, self.amplitudes)
+
+
+@dataclass(frozen=True)
+class ShaperRecord(Record):
+    """One row of the bank: the shaper in continuous time, and its taps where there is a tick."""
+
+    name: Annotated[str, LABEL]
+    family: Annotated[str, LABEL]
+    order: Annotated[int | None, optional(ORDER)]
+    delay_s: Annotated[float | None, optional(POSITIVE)]
+    mode: Annotated[ModeRecord, one(ModeRecord)]
+    times_s: Annotated[Floats, TIMES]
+    amplitudes: Annotated[Floats, AMPLITUDES]
+    duration_s: Annotated[float, NOT_NEGATIVE]
+    lower_bound_s: Annotated[float | None, optional(NOT_NEGATIVE)]
+    overtravel_s: Annotated[float, FINITE]
+    peak_factor: Annotated[float, POSITIVE]
+    guarantee: Annotated[GuaranteeRecord, one(GuaranteeRecord)]
+    taps: Annotated[TapsRecord | None, optional(one(TapsRecord))]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require one amplitude for each time, and the figures that follow from them."""
+        yield from _lengths("times_s", self.times_s, self.amplitudes)
+        if len(self.times_s) == len(self.amplitudes):
+            yield from _moments(self, self.times_s)
+            if not math.isclose(self.peak_factor, sum(map(abs, self.amplitudes)), rel_tol=CLOSE):
+                yield "peak_factor", f"{self.peak_factor!r} is not the sum of the amplitudes' sizes"
+
+
+@dataclass(frozen=True, kw_only=True)
+class DesignFile(Record):
+    """A whole design file.
+
+    Examples
+    --------
+    >>> from dataclasses import fields
+    >>> [field.name for field in fields(DesignFile)][:4]
+    ['schema', 'name', 'generator', 'source']
+    """
+
+    schema: Annotated[str, word("schema", (SCHEMA,))] = SCHEMA
+    name: Annotated[str, NAME]
+    generator: Annotated[str, TEXT]
+    source: Annotated[str | None, optional(TEXT)]
+    law: Annotated[str, word("law for this version", LAWS)]
+    tick_s: Annotated[float | None, optional(POSITIVE)]
+    number: Annotated[str, word("number type", NUMBER_TYPES)]
+    plant: Annotated[PlantRecord, one(PlantRecord)]
+    drive: Annotated[DriveRecord, one(DriveRecord)]
+    shapers: Annotated[tuple[ShaperRecord, ...], several(one(ShaperRecord), at_least=1, at_most=MAX_SHAPERS)]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require taps exactly where there is a tick, counts for int32, and rows of different names."""
+        if self.number == "int32" and self.drive.counts_per_m_s is None:
+            yield "drive.counts_per_m_s", 'is null, and number = "int32" computes in counts'
+        names = [shaper.name.lower() for shaper in self.shapers]
+        for index, shaper in enumerate(self.shapers):
+            if names[index] in names[:index]:
+                yield f"shapers[{index}].name", f"is also the name of shapers[{names.index(names[index])}]"
+            yield from _taps(f"shapers[{index}].taps", shaper.taps, self.tick_s)
+
+
+def _taps(key: str, taps: TapsRecord | None, tick_s: float | None) -> Iterator[tuple[str, str]]:
+    if (taps is None) != (tick_s is None):
+        there, null = ("tick_s", key) if taps is None else (key, "tick_s")
+        yield key, f"{null} is null and {there} is not: both or neither"
+    elif taps is not None and tick_s is not None:
+        for figure, reason in _moments(taps, [delay * tick_s for delay in taps.delays_ticks]):
+            yield f"{key}.{figure}", reason
+
+
+def _lengths(key: str, times: Sequence[float], amplitudes: Floats) -> Iterator[tuple[str, str]]:
+    if len(times) != len(amplitudes):
+        yield "amplitudes", f"has {len(amplitudes)} values, {key} has {len(times)}"
+
+
+def _moments(impulses: ShaperRecord | TapsRecord, times_s: Sequence[float]) -> Iterator[tuple[str, str]]:
+    """Require the duration and the overtravel that follow from the impulses."""
+    moments = [amplitude * time_s for amplitude, time_s in zip(impulses.amplitudes, times_s, strict=True)]
+    last, total = nearest_12(times_s[-1]), nearest_12(sum(moments))
+    if not math.isclose(impulses.duration_s, last, rel_tol=CLOSE):
+        yield "duration_s", f"{impulses.duration_s!r} is not the time of the last impulse, {last!r}"
+    if abs(impulses.overtravel_s - total) > CLOSE * sum(map(abs, moments)):
+        yield "overtravel_s", f"{impulses.overtravel_s!r} is not the sum of amplitude times time, {total!r}"

@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from swayless.design import FAMILIES
+from swayless.machine import Machine, design_document, load_machine, machine_file
+from swayless.machine.problems import Table
+from swayless.machine.record import Record, members
+
+DOCS = Path(__file__).parents[3] / "docs"
+
+
+def _keys_asked_for(path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, set[str]]:
+    """Every key that the loader asks a section for."""
+    asked: dict[str, set[str]] = {}
+
+    class Watched(Table):
+        def close(self) -> None:
+            asked.setdefault(re.sub(r"\[\[row\]\].*", "[[row]]", self.prefix).strip(), set()).update(
+                self.asked
+            )
+            super().close()
+
+    monkeypatch.setattr(machine_file, "Table", Watched)
+    assert isinstance(load_machine(path), Machine)
+    return asked
+
+
+def test_every_key_of_the_machine_file_is_documented_in_its_section(
+    tmp_path: Path, machine_text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "crane.toml"
+    path.write_text(machine_text)
+    pages = re.split(r"\n## ", (DOCS / "machine-file.md").read_text(encoding="utf-8"))
+    section_pages = {"": "At the top", "[crane]": "`[crane]`", "[drive]": "`[drive]`"}
+    section_pages |= {"[controller]": "`[controller]`", "[[row]]": "`[[row]]`"}
+    asked = _keys_asked_for(path, monkeypatch)
+    assert asked.keys() == section_pages.keys()
+    for section, keys in asked.items():
+        page = next(page for page in pages if page.startswith(section_pages[section]))
+        documented = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\|([^|]*)\|", page, re.MULTILINE))))
+        sections_of_their_own = {"crane", "arm", "drive", "controller", "row"} if not section else set()
+        assert keys - sections_of_their_own == documented
+
+
+def test_every_key_of_the_design_file_is_documented() -> None:
+    page = (DOCS / "design-file.md").read_text(encoding="utf-8")
+    documented = set(re.findall(r"^\| `(\w+)`", page, re.MULTILINE))
+    records = [value for value in vars(design_document).values() if isinstance(value, type)]
+    known = {key for cls in records if issubclass(cls, Record) for key in members(cls)}
+    assert documented == known
+
+
+def test_every_family_is_documented_on_its_side() -> None:
+    page = (DOCS / "machine-file.md").read_text(encoding="utf-8")
+    positive, negative = page.split("Families with positive amplitudes")[1].split(
+        "Families with negative amplitudes"
+    )
+    for family in FAMILIES.values():
+        assert (f"`{family.name}`" in negative) is family.negative
+        assert (f"`{family.name}`" in positive) is not family.negative
