@@ -1,0 +1,26 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def _example_in(page: str, language: str) -> str:
+    found = re.findall(rf"```{language}\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL)
+    assert found, f"{page} has no {language} example"
+    return str(found[0])
+
+
+@pytest.fixture(scope="session")
+def machine_text() -> str:
+    """The complete machine file of the documentation."""
+    return _example_in("machine-file.md", "toml")
+
+
+@pytest.fixture(scope="session")
+def design_text() -> str:
+    """The complete design file of the documentation."""
+    return _example_in("design-file.md", "json")
