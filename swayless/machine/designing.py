@@ -9,15 +9,15 @@ from collections.abc import Callable
 
 import swayless
 from swayless.design import (
-    GridShaper,
     Guarantee,
     Shaper,
     design_shaper,
     overtravel_s,
     peak_factor,
     rope_length_interval_m,
-    solve_on_grid,
 )
+from swayless.design.grid import solve_on_grid
+from swayless.design.grid_shaper import GridShaper
 from swayless.errors import DesignError
 from swayless.machine.design_document import (
     DesignFile,
@@ -96,7 +96,9 @@ def design_mode(
         If the family does not exist for the mode or tolerance, or the tick is too coarse.
     """
     frequency_hz = row.mode.frequency_hz
-    kind, rope_m = ("mode", None) if row.rope_length_m is None else ("crane", (row.rope_length_m, row.rope_length_m))
+    kind, rope_m = (
+        ("mode", None) if row.rope_length_m is None else ("crane", (row.rope_length_m, row.rope_length_m))
+    )
     return DesignFile(
         name=name,
         generator=GENERATOR,
