@@ -59,6 +59,6 @@ def _remove(temporary: Path) -> None:
 
 
 def _why(path: Path, error: OSError | ValueError) -> str:
-    if isinstance(error, FileNotFoundError):
+    if isinstance(error, FileNotFoundError) and not path.parent.exists():
         return f"there is no folder {path.parent}"
     return (error.strerror if isinstance(error, OSError) else None) or str(error)
