@@ -4,4 +4,13 @@ from swayless.verify.comparison import Comparison, compare
 from swayless.verify.toolchain import COMPILERS, Compiler, find_compiler
 from swayless.verify.verification import SOAK_TICKS, Verdict, verify_block
 
-__all__ = ["COMPILERS", "Comparison", "Compiler", "SOAK_TICKS", "Verdict", "compare", "find_compiler", "verify_block"]
+__all__ = [
+    "COMPILERS",
+    "Comparison",
+    "Compiler",
+    "SOAK_TICKS",
+    "Verdict",
+    "compare",
+    "find_compiler",
+    "verify_block",
+]

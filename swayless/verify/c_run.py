@@ -85,7 +85,11 @@ class CompiledBlock:
         """
         try:
             done = subprocess.run(  # noqa: S603 - the program compiled above
-                [str(self._program)], input=inputs.tobytes(), capture_output=True, check=False, timeout=RUN_TIMEOUT_S
+                [str(self._program)],
+                input=inputs.tobytes(),
+                capture_output=True,
+                check=False,
+                timeout=RUN_TIMEOUT_S,
             )
         except subprocess.TimeoutExpired as error:
             raise VerificationError(f"the compiled block did not end within {RUN_TIMEOUT_S:.0f} s") from error

@@ -28,7 +28,9 @@ def run_reference(settings: ShaperSettings, inputs: NDArray[np.void]) -> NDArray
     shaper = CommandShaper(settings)
     scalar = settings.number.scalar
     outputs = np.empty(inputs.size, dtype=output_dtype(settings.number))
-    columns = [inputs[name].tolist() for name in ("command", "selector", "enable", "quick_stop", "emergency_stop")]
+    columns = [
+        inputs[name].tolist() for name in ("command", "selector", "enable", "quick_stop", "emergency_stop")
+    ]
     for tick, (command, selector, enable, quick, emergency) in enumerate(zip(*columns, strict=True)):
         out = shaper.step(ShaperInput(scalar(command), selector, enable, quick, emergency))
         outputs[tick] = (

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from swayless.controller.number import NumberType
 from swayless.controller.settings import ShaperSettings
 
-COMMAND_TYPES = {"double": np.float64, "float": np.float32, "int32": np.int32}
+COMMAND_TYPES: dict[str, Any] = {"double": np.float64, "float": np.float32, "int32": np.int32}
 """Array type of a command in each number type."""
 
 
@@ -88,14 +89,14 @@ class _Builder:
         inputs["selector"] = 1
         return inputs
 
-    def commands(self, values: NDArray[np.float64]) -> NDArray[np.generic]:
+    def commands(self, values: ArrayLike) -> NDArray[Any]:
         """Fractions of the maximum as commands."""
-        scaled = np.asarray(values) * self.max
+        scaled = np.asarray(values, dtype=np.float64) * self.max
         if self.settings.number.is_integer:
             return np.rint(scaled).astype(np.int32)
         return scaled.astype(COMMAND_TYPES[self.settings.number.name])
 
-    def held(self, ticks: int, values: NDArray[np.generic], longest: int) -> NDArray[np.generic]:
+    def held(self, ticks: int, values: NDArray[Any], longest: int) -> NDArray[Any]:
         """Values held for random times up to `longest` ticks."""
         lengths = self.random.integers(1, longest + 1, size=ticks // max(1, longest // 2) + 2)
         positions = np.repeat(self.random.integers(0, len(values), size=lengths.size), lengths)
@@ -171,7 +172,8 @@ def bad_input(build: _Builder, ticks: int) -> Stimulus:
         kind = COMMAND_TYPES[build.settings.number.name]
         info = np.finfo(kind)
         odd = np.array(
-            [0.0, -0.0, np.nan, np.inf, -np.inf, info.max, -info.max, info.tiny, build.max / 2, -build.max], dtype=kind
+            [0.0, -0.0, np.nan, np.inf, -np.inf, info.max, -info.max, info.tiny, build.max / 2, -build.max],
+            dtype=kind,
         )
     inputs["command"] = build.held(ticks, odd, 60)
     inputs["selector"] = build.random.integers(0, 256, ticks)

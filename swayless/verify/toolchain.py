@@ -71,7 +71,10 @@ class Compiler:
             If a file does not compile; the message is the compiler's.
         """
         objects = []
-        for source, flags in [*((s, self.strict) for s in strict_sources), *((s, _BASE[:3]) for s in sources)]:
+        for source, flags in [
+            *((s, self.strict) for s in strict_sources),
+            *((s, _BASE[:3]) for s in sources),
+        ]:
             objects.append(program.parent / f"{source.stem}.o")
             self._run([*flags, "-c", str(source), "-o", str(objects[-1])], source.name)
         self._run([*map(str, objects), "-o", str(program)], program.name)
@@ -88,7 +91,9 @@ class Compiler:
                 env={**os.environ, "LC_ALL": "C"},
             )
         except subprocess.TimeoutExpired as error:
-            raise VerificationError(f"{self.name} took more than {COMPILE_TIMEOUT_S:.0f} s on {what}") from error
+            raise VerificationError(
+                f"{self.name} took more than {COMPILE_TIMEOUT_S:.0f} s on {what}"
+            ) from error
         if done.returncode != 0:
             raise VerificationError(f"{self.name} does not accept {what}:\n{done.stderr.strip()}")
 
@@ -116,4 +121,6 @@ def find_compiler(name: str | None = None) -> Compiler:
         if name in (None, compiler.name) and compiler.is_installed():
             return compiler
     wanted = name or "C compiler"
-    raise ToolMissingError(f"no {wanted} on this machine: install gcc or clang, or run pip install 'swayless[verify]'")
+    raise ToolMissingError(
+        f"no {wanted} on this machine: install gcc or clang, or run pip install 'swayless[verify]'"
+    )

@@ -18,7 +18,11 @@ def test_a_fresh_environment_generates_from_the_wheel(tmp_path):
     swayless = scripts / "swayless"
     subprocess.run([swayless, "init", "gantry.toml"], check=True, cwd=tmp_path)
     subprocess.run([swayless, "build", "gantry.toml", "-o", "made", "--no-verify"], check=True, cwd=tmp_path)
-    made = {path.relative_to(tmp_path / "made").as_posix() for path in (tmp_path / "made").rglob("*") if path.is_file()}
+    made = {
+        path.relative_to(tmp_path / "made").as_posix()
+        for path in (tmp_path / "made").rglob("*")
+        if path.is_file()
+    }
     assert {"srtc_gantry.design.json", "c/srtc_gantry_shaper.c", "st/FB_srtc_gantry_Shaper.st"} <= made
     golden = ROOT / "tests" / "golden" / "srtc-gantry" / "c" / "srtc_gantry_shaper.h"
     assert golden.exists()

@@ -10,7 +10,10 @@ from tests.golden.update import EXAMPLES, GOLDEN, NAMES, built, files_below
 
 
 def test_every_example_has_golden_files_and_none_is_left_over():
-    assert sorted(path.name for path in GOLDEN.iterdir() if path.is_dir() and path.name != "__pycache__") == NAMES
+    assert (
+        sorted(path.name for path in GOLDEN.iterdir() if path.is_dir() and path.name != "__pycache__")
+        == NAMES
+    )
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -28,7 +31,11 @@ def test_building_twice_gives_the_same_bytes_figures_included(name, tmp_path):
     built(name, first)
     built(name, second)
     contents = [
-        {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+        {
+            path.relative_to(folder).as_posix(): path.read_bytes()
+            for path in folder.rglob("*")
+            if path.is_file()
+        }
         for folder in (first, second)
     ]
     assert contents[0] == contents[1]
@@ -36,7 +43,17 @@ def test_building_twice_gives_the_same_bytes_figures_included(name, tmp_path):
 
 
 def run_check(name, folder):
-    command = [sys.executable, "-m", "swayless", "build", f"{name}.toml", "-o", str(folder), "--check", "--json"]
+    command = [
+        sys.executable,
+        "-m",
+        "swayless",
+        "build",
+        f"{name}.toml",
+        "-o",
+        str(folder),
+        "--check",
+        "--json",
+    ]
     done = subprocess.run(command, capture_output=True, text=True, cwd=EXAMPLES, check=False)
     return done.returncode, json.loads(done.stdout)["differences"]
 
