@@ -17,7 +17,16 @@ from swayless.controller.ramp import Glider
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.status import ERROR_BITS, Status, explain
 
-SIZES_BYTES = {"bool": 1, "uint8_t": 1, "uint16_t": 2, "uint32_t": 4, "int32_t": 4, "float": 4, "int64_t": 8, "double": 8}
+SIZES_BYTES = {
+    "bool": 1,
+    "uint8_t": 1,
+    "uint16_t": 2,
+    "uint32_t": 4,
+    "int32_t": 4,
+    "float": 4,
+    "int64_t": 8,
+    "double": 8,
+}
 """Size and natural alignment of the C types in the state."""
 
 VALUES_A_LINE = 6
@@ -88,7 +97,7 @@ class CModel:
     def __post_init__(self) -> None:
         check_c_names(self.origin.name)
 
-    # ---- names, types and literals -----------------------------------------------------------------------------
+    # ---- names, types and literals ---------------------------------------------------------------
 
     @property
     def name(self) -> str:
@@ -182,7 +191,12 @@ class CModel:
         names = [bit.name for bit in Status if bit & ERROR_BITS]
         return "(" + " | ".join(f"{self.macro}_SHAPER_{name}" for name in names) + ")"
 
-    # ---- comments -------------------------------------------------------------------------------------------------
+    @property
+    def c_command_on_grid(self) -> str:
+        """The command on the grid of the ramp steps, where whole counts are already."""
+        return "command" if self.is_integer else f"{self.name}_on_grid(command)"
+
+    # ---- comments --------------------------------------------------------------------------------
 
     @cached_property
     def provenance(self) -> list[str]:
@@ -190,18 +204,19 @@ class CModel:
         facts = [
             f"Call {self.name}_shaper_init() once, then {self.name}_shaper_step() once per tick.",
             f"State: at most {self.ram_bytes} bytes, owned by the caller; no heap, no globals, no libm.",
-            f"Work per tick: one pass over the taps of the row in use, at most {self.most_taps}; none when settled.",
+            f"Work per tick: the taps of the row in use, at most {self.most_taps}; none when settled.",
         ]
         if not self.is_integer:
-            facts += [
-                "Compile with -ffp-contract=off (and without -ffast-math) for bit equality with the reference.",
-            ]
+            facts += ["Bit equality with the reference needs -ffp-contract=off, and no -ffast-math."]
         return [f" {line}".rstrip() for line in header_lines(self.settings, self.origin, facts)]
 
     @property
     def source_provenance(self) -> list[str]:
         """Head of the source file."""
-        return [f" {self.name}: command shaper, see {self.name}_shaper.h. Design SHA-256 {self.origin.design_sha256}."]
+        return [
+            f" {self.name}: command shaper, see {self.name}_shaper.h.",
+            f" Design SHA-256 {self.origin.design_sha256}.",
+        ]
 
     @property
     def most_taps(self) -> int:
@@ -223,7 +238,7 @@ class CModel:
         """The same, for a stop at once."""
         return ", s->command" if self.features.has_inching else ""
 
-    # ---- example --------------------------------------------------------------------------------------------------
+    # ---- example ---------------------------------------------------------------------------------
 
     @property
     def example_press_ticks(self) -> int:
@@ -249,7 +264,7 @@ class CModel:
         """Cast that the format needs."""
         return {"int32": "(long)", "float": "(double)", "double": ""}[self.settings.number.name]
 
-    # ---- structures -----------------------------------------------------------------------------------------------
+    # ---- structures ------------------------------------------------------------------------------
 
     @property
     def inputs(self) -> list[CField]:
@@ -274,21 +289,28 @@ class CModel:
         if self.is_integer:
             members.append(CField(wide, "carry", "what rounding owes the next reference, over 2^30", "", "0"))
         else:
-            members.append(CField(wide, "fresh", "the same from the commands of this lap alone", "", self.zero))
+            members.append(
+                CField(wide, "fresh", "the same from the commands of this lap alone", "", self.zero)
+            )
         members += [
             CField(real, "base", "command of the last rest", "", self.zero),
             CField(real, "target", "target of the ramp", "", self.zero),
             CField(real, "command", "ramped command", "", self.zero),
             CField(real, "reference", "last reference", "", self.zero),
+            CField(real, "stop_distance", "last stop distance; it stays when settled", "", self.zero),
+            CField(real, "stop_time_s", "last stop time, likewise", "", self.zero),
         ]
         if self.features.has_resolution:
-            members.append(CField(real, "held", "command held until it changes by the resolution", "", self.zero))
+            members.append(
+                CField(real, "held", "command held until it changes by the resolution", "", self.zero)
+            )
         members += [
             CField(f"{self.name}_shaper_input_t", "input", "last inputs"),
             CField(f"{self.name}_shaper_output_t", "output", "last outputs"),
             CField(real, "ring", "last ramped commands", f"[{self.macro}_SHAPER_RING]"),
             CField("uint32_t", "head", "cell of the newest command", "", last),
             CField("uint32_t", "still_ticks", "ticks without change, up to the longest delay", "", last),
+            CField("uint32_t", "stop_time_ticks", "last stop time, likewise", "", "0u"),
             CField("uint32_t", "status", "status bits of this tick", "", "0u"),
             CField("uint8_t", "row", "row in use", "", "0u"),
             CField("uint8_t", "selected_row", "last valid selector", "", "0u"),
@@ -327,7 +349,7 @@ class CModel:
         width = SIZES_BYTES[self.c_real if c_type.endswith("_real_t") else c_type]
         return width, width
 
-    # ---- constants and tables -------------------------------------------------------------------------------------
+    # ---- constants and tables --------------------------------------------------------------------
 
     @cached_property
     def constants(self) -> list[CConstant]:
@@ -335,27 +357,39 @@ class CModel:
         settings, limits, units = self.settings, self.settings.limits, OutputUnits(self.settings)
         real, symbol = f"{self.name}_real_t", limits.units
         constants = [
-            CConstant("uint32_t", "LAST_TICKS", f"{settings.longest_delay_ticks}u", "longest delay of any row"),
-            CConstant(real, "MAX_COMMAND", self.literal(limits.max_command), f"{symbol}: max_speed"),
             CConstant(
-                real,
-                "LANDING_MARGIN",
-                self.literal(limits.landing_margin),
-                f"{symbol}: rounding that the longest ramp may collect",
+                "uint32_t", "LAST_TICKS", f"{settings.longest_delay_ticks}u", "longest delay of any row"
             ),
+            CConstant(real, "MAX_COMMAND", self.literal(limits.max_command), f"{symbol}: max_speed"),
         ]
         for used, name, value, key in (
             (self.features.has_minimum, "MINIMUM_COMMAND", limits.minimum_command, "minimum_speed"),
-            (self.features.has_resolution, "COMMAND_RESOLUTION", limits.command_resolution, "command_resolution"),
+            (
+                self.features.has_resolution,
+                "COMMAND_RESOLUTION",
+                limits.command_resolution,
+                "command_resolution",
+            ),
             (self.features.has_inching, "INCHING_COMMAND", limits.inching_command, "inching_speed"),
         ):
             constants += [CConstant(real, name, self.literal(value), f"{symbol}: {key}")] if used else []
-        return constants + (self._integer_constants(units) if self.is_integer else self._float_constants(units))
+        return constants + (
+            self._integer_constants(units) if self.is_integer else self._float_constants(units)
+        )
 
     def _float_constants(self, units: OutputUnits) -> list[CConstant]:
         real = f"{self.name}_real_t"
+        anchor = self.literal(self.settings.limits.ramp_anchor)
         return [
-            CConstant(real, "METRES_PER_UNIT_TICK", self.literal(units.metres_per_unit_tick), "m of way per unit and tick"),
+            CConstant(
+                real, "RAMP_ANCHOR", anchor, "next to it, floats are as coarse as the grid of the ramp steps"
+            ),
+            CConstant(
+                real,
+                "METRES_PER_UNIT_TICK",
+                self.literal(units.metres_per_unit_tick),
+                "m of way per unit and tick",
+            ),
             CConstant(real, "TICK_S", self.literal(units.tick_s), "s: tick"),
         ]
 
@@ -363,11 +397,20 @@ class CModel:
         half = (1 << units.distance_shift) >> 1
         return [
             CConstant("int64_t", "ONE", f"INT64_C({1 << 30})", "amplitude 1, over 2^30"),
-            CConstant("int64_t", "ROUNDING", f"INT64_C({(1 << 62) + (1 << 29)})", "2^62 makes positive, 2^29 rounds"),
+            CConstant(
+                "int64_t", "ROUNDING", f"INT64_C({(1 << 62) + (1 << 29)})", "2^62 makes positive, 2^29 rounds"
+            ),
             CConstant("int64_t", "ROUNDING_WHOLE", f"INT64_C({1 << 32})", "2^62 over 2^30"),
-            CConstant("uint64_t", "DISTANCE_SCALE", f"UINT64_C({units.distance_scale})", "mm of way per count and tick, scaled"),
+            CConstant(
+                "uint64_t",
+                "DISTANCE_SCALE",
+                f"UINT64_C({units.distance_scale})",
+                "mm of way per count and tick, scaled",
+            ),
             CConstant("uint64_t", "DISTANCE_HALF", f"UINT64_C({half})", "rounds to the nearest"),
-            CConstant("uint32_t", "DISTANCE_SHIFT", f"{units.distance_shift}u", "the scale is 2 to this power"),
+            CConstant(
+                "uint32_t", "DISTANCE_SHIFT", f"{units.distance_shift}u", "the scale is 2 to this power"
+            ),
             CConstant("uint64_t", "TIME_SCALE", f"UINT64_C({units.time_scale})", "s per tick, over 2^32"),
         ]
 
@@ -392,8 +435,14 @@ class CModel:
             ("QUICK_STOP", limits.quick_stop_step),
         ):
             glider = Glider(step, limits, number)
-            rest = f"{glider.shift}u, UINT64_C({glider.reciprocal})" if self.is_integer else self.literal(glider.reciprocal)
-            doc = f"{limits.units} per tick: {name.lower()}"
+            rest = (
+                f"{glider.shift}u, UINT64_C({glider.reciprocal})"
+                if self.is_integer
+                else self.literal(glider.reciprocal)
+            )
+            doc = f"{limits.units} per tick: {name.lower()}" + (
+                "" if self.is_integer else ", on the ramp grid"
+            )
             ramps.append(CConstant("", name, f"{self.literal(step)}, {rest}", doc))
         return ramps
 
@@ -405,12 +454,21 @@ class CModel:
         firsts = [sum(len(r.amplitudes) for r in rows[:i]) for i in range(len(rows) + 1)]
         by_row = [[self.literal(a) for a in r.amplitudes] for r in rows]
         tables = [
-            self._table("uint32_t", "FIRST_TAP", [[f"{f}u" for f in firsts]], "first tap of each row, and the end"),
             self._table(
-                "uint32_t", "DELAY_TICKS", [[f"{d}u" for d in r.delays_ticks] for r in rows], "delay of each tap, by row"
+                "uint32_t", "FIRST_TAP", [[f"{f}u" for f in firsts]], "first tap of each row, and the end"
             ),
-            self._table(real, "AMPLITUDE", by_row, f"amplitude of each tap, by row; each row sums to exactly 1{scale}"),
-            self._table("uint32_t", "TAIL_TICKS", [[f"{r.tail_ticks}u" for r in rows]], "longest delay of each row"),
+            self._table(
+                "uint32_t",
+                "DELAY_TICKS",
+                [[f"{d}u" for d in r.delays_ticks] for r in rows],
+                "delay of each tap, by row",
+            ),
+            self._table(
+                real, "AMPLITUDE", by_row, f"amplitude of each tap, by row; each row sums to exactly 1{scale}"
+            ),
+            self._table(
+                "uint32_t", "TAIL_TICKS", [[f"{r.tail_ticks}u" for r in rows]], "longest delay of each row"
+            ),
             *self._moment_tables(),
             self._table(
                 real,
@@ -421,7 +479,9 @@ class CModel:
         ]
         if self.features.has_waiting_rows:
             waits = [["true" if r.waits else "false" for r in rows]]
-            tables.append(self._table("bool", "WAITS", waits, "rows with negative amplitudes: commands wait for rest"))
+            tables.append(
+                self._table("bool", "WAITS", waits, "rows with negative amplitudes: commands wait for rest")
+            )
         return tables
 
     def _moment_tables(self) -> list[CTable]:
@@ -433,7 +493,9 @@ class CModel:
         split = [divmod(int(m * (1 << 30)), 1 << 30) for m in moments]
         return [
             self._table("int32_t", "MOMENT_TICKS", [[str(w) for w, _ in split]], doc + ", whole ticks"),
-            self._table("int32_t", "MOMENT_Q30", [[str(f) for _, f in split]], "what is left of each, over 2^30"),
+            self._table(
+                "int32_t", "MOMENT_Q30", [[str(f) for _, f in split]], "what is left of each, over 2^30"
+            ),
         ]
 
     def _table(self, c_type: str, name: str, rows: Sequence[Sequence[str]], doc: str) -> CTable:

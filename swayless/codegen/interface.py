@@ -1,4 +1,4 @@
-"""The pins of the command shaper block, in C and Structured Text, from one table. Not for: what they do inside."""
+"""The pins of the command shaper block, for C and Structured Text alike. Not for: what they do inside."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Pin:
 
 
 def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
-    """Inputs of the block, in the order of the generated structure.
+    """List the inputs of the block, in the order of the generated structure.
 
     Parameters
     ----------
@@ -53,7 +53,12 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     rows = len(settings.bank.rows)
     return (
         Pin("enable", "Enable", "bool", "false: row 0 is wanted, ramped and unshaped", st_initial="TRUE"),
-        Pin("emergency_stop", "EmergencyStop", "bool", "reference 0 at once; latched until the command has been 0"),
+        Pin(
+            "emergency_stop",
+            "EmergencyStop",
+            "bool",
+            "reference 0 at once; latched until the command has been 0",
+        ),
         Pin(
             "quick_stop",
             "QuickStop",
@@ -78,7 +83,7 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
 
 
 def output_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
-    """Outputs of the block, in the order of the generated structure.
+    """List the outputs of the block, in the order of the generated structure.
 
     Parameters
     ----------
@@ -96,9 +101,7 @@ def output_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
             "m",
             "mm",
         ),
-        Pin(
-            "stop_time_s", "StopTime", "real", "time until the reference is 0 then", "s", "s, rounded up"
-        ),
+        Pin("stop_time_s", "StopTime", "real", "time until the reference is 0 then", "s", "s, rounded up"),
         Pin("stop_time_ticks", "StopTimeTicks", "word", "the same time", "ticks", "ticks"),
         Pin(
             "residual_bound",

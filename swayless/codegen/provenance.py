@@ -55,16 +55,20 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
         "This file is yours: use, change and ship it as you like.",
         "",
         f"Tick {settings.tick_s:.9g} s, numbers in {settings.number.name}, law fixed (tick clock).",
-        f"Commands in {limits.units}, at most {limits.max_command:.9g}; settled after {settings.longest_delay_ticks} ticks.",
+        f"Commands in {limits.units}, at most {limits.max_command:.9g}. "
+        f"Settled after {settings.longest_delay_ticks} ticks without change.",
         "Rows of the selector, and the residual vibration that each guarantees on these very taps:",
         "  0 unshaped (ramped only)",
     ]
     for position, row in enumerate(settings.bank.rows, start=1):
-        lines += [f"  {position} {line}" if i == 0 else f"    {line}" for i, line in enumerate(_row_lines(row, provenance))]
+        lines += [
+            f"  {position} {line}" if i == 0 else f"    {line}"
+            for i, line in enumerate(_row_lines(row, provenance))
+        ]
     lines += ["", *facts, ""]
     lines += [
         "NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.",
-        "Nothing may limit, ramp or filter the reference on its way to the drive: that would undo the shaping.",
+        "Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.",
         "Wind, off-centre pick-up and a slack rope are beyond what a command can prevent.",
     ]
     return lines
@@ -83,5 +87,7 @@ def _row_lines(row: Row, provenance: Provenance) -> list[str]:
         lines[-1] += f" (rope {low_m:.6g} to {high_m:.6g} m)"
     lines.append(f"overtravel {overtravel_s(taps):.6g} m per m/s, peak factor {peak_factor(taps):.6g}")
     if taps.has_negative:
-        lines.append("negative amplitudes: a new command waits until the block has settled, short jogs are stretched")
+        lines.append(
+            "negative amplitudes: a new command waits until the block has settled, short jogs are stretched"
+        )
     return lines

@@ -80,7 +80,8 @@ class StModel:
     def __post_init__(self) -> None:
         if self.settings.number.name not in ST_TYPES:
             raise CodegenError(
-                f"number = {self.settings.number.name!r}: Structured Text is generated in LREAL (double) or REAL (float)"
+                f"number = {self.settings.number.name!r}: Structured Text calculates in "
+                "LREAL (double) or REAL (float)"
             )
         names = [pin.st_name for pin in (*input_pins(self.settings), *output_pins(self.settings))]
         names += [item.st_name for group in (self.st_constants, self.st_tables) for item in group]
@@ -131,7 +132,7 @@ class StModel:
         """Head of the file."""
         facts = [
             "Call the block once per tick, in a task of exactly that cycle; declare one instance per axis.",
-            f"Work per call: at most {self.most_taps} taps; no division, no library function but ABS and TRUNC.",
+            f"Work per call: at most {self.most_taps} taps; no division, no functions but ABS and TRUNC.",
             "",
             "Status is the sum of:",
             *(f"  {bit.value} {explain(bit)}" for bit in Status),
@@ -161,7 +162,12 @@ class StModel:
         reals = [("MaxCommand", limits.max_command, f"[{symbol}] max_speed")]
         for used, name, value, key in (
             (self.features.has_minimum, "MinimumCommand", limits.minimum_command, "minimum_speed"),
-            (self.features.has_resolution, "CommandResolution", limits.command_resolution, "command_resolution"),
+            (
+                self.features.has_resolution,
+                "CommandResolution",
+                limits.command_resolution,
+                "command_resolution",
+            ),
             (self.features.has_inching, "InchingCommand", limits.inching_command, "inching_speed"),
         ):
             reals += [(name, value, f"[{symbol}] {key}")] if used else []
@@ -170,16 +176,22 @@ class StModel:
             ("Deceleration", limits.deceleration_step, "deceleration"),
             ("QuickStop", limits.quick_stop_step, "quick_stop"),
         ):
-            reals.append((f"{name}Step", step, f"[{symbol} per tick] {key}"))
+            reals.append((f"{name}Step", step, f"[{symbol} per tick] {key}, on the ramp grid"))
             if name != "Acceleration" or self.features.has_waiting_rows:
                 reciprocal = Glider(step, limits, settings.number).reciprocal
                 reals.append((f"StepsPer{name}", reciprocal, f"[ticks per {symbol}] 1 / {name}Step"))
         reals += [
-            ("LandingMargin", limits.landing_margin, f"[{symbol}] rounding that the longest ramp may collect"),
+            (
+                "RampAnchor",
+                limits.ramp_anchor,
+                "next to it, reals are as coarse as the grid of the ramp steps",
+            ),
             ("MetresPerUnitTick", units.metres_per_unit_tick, "[m] way per unit of command and tick"),
             ("TickTime", units.tick_s, "[s] tick"),
         ]
-        last = Constant("LastTicks", "DINT", str(settings.longest_delay_ticks), "[ticks] longest delay of any row")
+        last = Constant(
+            "LastTicks", "DINT", str(settings.longest_delay_ticks), "[ticks] longest delay of any row"
+        )
         return [last, *(Constant(name, real, self.literal(value), doc) for name, value, doc in reals)]
 
     @cached_property
@@ -192,25 +204,34 @@ class StModel:
         tables = [
             _table("FirstTaps", "DINT", [[str(first) for first in firsts]], "First tap of each row."),
             _table("TapCounts", "DINT", [[str(len(r.amplitudes)) for r in rows]], "Taps of each row."),
-            _table("DelayTicks", "DINT", [[str(d) for d in r.delays_ticks] for r in rows], "[ticks] Delay of each tap, by row."),
+            _table(
+                "DelayTicks",
+                "DINT",
+                [[str(d) for d in r.delays_ticks] for r in rows],
+                "[ticks] Delay of each tap, by row.",
+            ),
             _table(
                 "Amplitudes",
                 self.st_real,
                 [[self.literal(a) for a in r.amplitudes] for r in rows],
                 "Amplitude of each tap, by row; each row sums to exactly 1.",
             ),
-            _table("TailTicks", "DINT", [[str(r.tail_ticks) for r in rows]], "[ticks] Longest delay of each row."),
+            _table(
+                "TailTicks", "DINT", [[str(r.tail_ticks) for r in rows]], "[ticks] Longest delay of each row."
+            ),
             _table(
                 "MomentTicks",
                 self.st_real,
                 [moments],
-                "[ticks] Sum of amplitude times delay of each row: references to come per unit of a steady command.",
+                "[ticks] Sum of amplitude times delay of each row: what a steady command still has to come.",
             ),
             _table("ResidualBounds", self.st_real, [bounds], "Tolerance of each row."),
         ]
         if self.features.has_waiting_rows:
             waits = [["TRUE" if r.waits else "FALSE" for r in rows]]
-            tables.append(_table("Waits", "BOOL", waits, "Rows with negative amplitudes: commands wait for rest."))
+            tables.append(
+                _table("Waits", "BOOL", waits, "Rows with negative amplitudes: commands wait for rest.")
+            )
         return tables
 
     @cached_property
@@ -218,14 +239,18 @@ class StModel:
         """What lives from call to call."""
         real = self.st_real
         state = [
-            Variable("Ring", f"ARRAY[0..{self.settings.longest_delay_ticks}] OF {real}", "last ramped commands"),
+            Variable(
+                "Ring", f"ARRAY[0..{self.settings.longest_delay_ticks}] OF {real}", "last ramped commands"
+            ),
             Variable("Base", real, "command of the last rest", st_reset="0.0"),
             Variable("Target", real, "target of the ramp", st_reset="0.0"),
             Variable("Ramped", real, "ramped command", st_reset="0.0"),
             Variable("Pending", real, "sum of the references still to come", st_reset="0.0"),
             Variable("Fresh", real, "the same from the commands of this lap alone", st_reset="0.0"),
             Variable("Head", "DINT", "cell of the newest command", st_reset="LastTicks"),
-            Variable("StillTicks", "DINT", "ticks without change, up to the longest delay", st_reset="LastTicks"),
+            Variable(
+                "StillTicks", "DINT", "ticks without change, up to the longest delay", st_reset="LastTicks"
+            ),
             Variable("ActiveRow", "DINT", "row in use", st_reset="0"),
             Variable("SelectedRow", "DINT", "last valid selector", st_reset="0"),
             Variable("WantedRow", "DINT", "row that takes over when settled", st_reset="0"),
@@ -253,9 +278,8 @@ class StModel:
             (self.st_real, "Start", "command from which the stop ramp starts"),
             (self.st_real, "RampStep", "step of a ramp"),
             (self.st_real, "StepsPerUnit", "1 / RampStep"),
-            (self.st_real, "Gap", "way of a ramp"),
-            (self.st_real, "Steps", "whole steps of a ramp before its last"),
-            (self.st_real, "Fall", "what those steps take from their sum"),
+            (self.st_real, "Anchor", "ramp anchor with the sign of the command"),
+            (self.st_real, "Steps", "the same as a real"),
             (self.st_real, "DownSum", "sum of the commands of the stop ramp"),
             (self.st_real, "StopSum", "sum of the references to come"),
             ("DINT", "WholeSteps", "whole steps of a ramp before its last"),
@@ -269,6 +293,7 @@ class StModel:
             ("DINT", "i", "counter"),
             ("DINT", "Bits", "status bits of this call"),
             ("BOOL", "Valid", "the command is finite"),
+            ("BOOL", "Landed", "a ramp has landed"),
             ("BOOL", "InRange", "the command is within the maximum"),
             ("BOOL", "ZeroCommanded", "the command is a valid 0"),
             ("BOOL", "Stopped", "a stop is latched"),

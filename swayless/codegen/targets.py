@@ -80,7 +80,9 @@ def generate(settings: ShaperSettings, origin: Provenance, target: str) -> tuple
         raise CodegenError(f"target {target!r}: must be one of {', '.join(TARGETS)}")
     known = TARGETS[target].number_types
     if settings.number.name not in known:
-        raise CodegenError(f"number = {settings.number.name!r}: target {target!r} calculates in {' or '.join(known)}")
+        raise CodegenError(
+            f"number = {settings.number.name!r}: target {target!r} calculates in {' or '.join(known)}"
+        )
     return TARGETS[target].make(settings, origin)
 
 

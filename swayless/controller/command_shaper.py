@@ -13,6 +13,7 @@ from swayless.controller.ramp import Glider, ramped
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.status import ERROR_BITS, Status
 from swayless.controller.tap_filter import tap_filter
+
 # Plain integers: the flag type is an order of magnitude slower, and this runs millions of times.
 _DISABLED, _UNSHAPED, _ROW_WAITS = int(Status.DISABLED), int(Status.UNSHAPED), int(Status.ROW_WAITS)
 _COMMAND_WAITS, _COMMAND_CLAMPED = int(Status.COMMAND_WAITS), int(Status.COMMAND_CLAMPED)
@@ -196,14 +197,11 @@ class CommandShaper:
 
     def _stop(self) -> None:
         """Take the reference to 0 and what is pending with it: the shaper rests at the reference."""
-        if self._emergency:
+        reach = abs(self._reference) - self._limits.quick_stop_step
+        if self._emergency or reach <= 0:
             self._reference = self._zero
         else:
-            reach = abs(self._reference) - self._limits.quick_stop_step
-            if reach <= self._limits.landing_margin:
-                self._reference = self._zero
-            else:
-                self._reference = reach if self._reference > 0 else -reach
+            self._reference = reach if self._reference > 0 else -reach
         self._command = self._target = self._reference
         self._still_ticks = self._last if self._reference == 0 else 0
         self._inching = False
@@ -211,7 +209,7 @@ class CommandShaper:
 
     def _move(self, command: Any) -> None:
         if self._is_settled:
-            self._inching = self._inches(self._command, command)
+            self._inching = self._wanted_row > 0 and self._inches(self._command, command)
             self._row = 0 if self._inching else self._wanted_row
         self._accept(command)
         before, self._command = self._command, ramped(self._command, self._target, self._limits)
@@ -249,7 +247,7 @@ class CommandShaper:
         return 0 if self._inches(command, self._zero) else self._wanted_row
 
     def _foretell(self) -> tuple[Any, int]:
-        """Sum of the references to come and ticks until the last, if the command is 0 from the next tick on."""
+        """Sum of the references to come, and ticks until 0, if the command is 0 from the next tick on."""
         if self._emergency:
             return self._zero, 0
         if self._quick:
@@ -264,7 +262,7 @@ class CommandShaper:
         return self._filter.pending(row) + down.total, ticks
 
     def _foretell_waiting(self) -> tuple[Any, int]:
-        """Foretell a stop that waits: the ramp completes, the shaper settles, and only then the 0 is accepted."""
+        """Foretell a stop that waits: the ramp completes, the shaper settles, only then the 0 is accepted."""
         target = self._target
         glider = self._speed_up if abs(target) > abs(self._command) else self._slow_down
         rise = glider(self._command, target)

@@ -7,22 +7,24 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
-from swayless.controller.number import NumberType
+from swayless.controller.number import NumberType, as_written
+from swayless.controller.ramp_grid import RampGrid
 from swayless.errors import ControllerError
 
 MAX_COUNTS = 1 << 28
-"""Largest command in int32: leaves the 64-bit sums of products room for amplitudes that add up to 32."""
+"""Largest command in int32: 64-bit sums of products have room for amplitudes whose sizes add up to 16."""
 
-LANDING_SHARE = 0.125
-"""Largest landing margin as a share of a ramp step: the last step of a ramp may be longer by so much."""
+FLOAT_STEP_ERROR = 0.001
+"""A ramp may be at most this much faster than asked because a step is a whole number of grid units."""
 
 INTEGER_STEP_ERROR = 0.05
 """A ramp may be at most this much slower than asked because a step is a whole number of counts."""
 
 MAX_RAMP_TICKS = 1 << 20
 """Longest ramp, in ticks: keeps the closed form of the stop distance exact in 64-bit counts."""
+
+REAL_RANGE = (1e-30, 1e30)
+"""Speeds in command units that float and double allow: stop distances stay within the range of float."""
 
 
 @dataclass(frozen=True)
@@ -40,11 +42,18 @@ class SpeedLimits:
     inching_speed_m_s : float
         Up to this speed, a command from rest passes unshaped. 0 switches inching off.
     command_resolution_m_s : float
-        A command must change by at least this much to count as a new one. 0 takes every command.
+        A command must change by at least this much to count as a new one, and one below half of it counts
+        as 0: noise of less than half of it, from peak to peak, comes to rest at any level. 0 takes every
+        command.
     units : str
         What commands are in.
     units_per_m_s : float
-        How many of them make 1 m/s.
+        How many of them make 1 m/s, > 0.
+
+    Raises
+    ------
+    ControllerError
+        If a limit is not finite, not above 0, or one of the three small speeds not below the largest.
     """
 
     max_speed_m_s: float
@@ -57,6 +66,24 @@ class SpeedLimits:
     units: str = "m/s"
     units_per_m_s: float = 1.0
 
+    def __post_init__(self) -> None:
+        for name in (
+            "max_speed_m_s",
+            "acceleration_m_s2",
+            "deceleration_m_s2",
+            "quick_stop_m_s2",
+            "units_per_m_s",
+        ):
+            value = getattr(self, name)
+            if value is not None and not 0.0 < value < math.inf:
+                raise ControllerError(f"{name} = {value!r}: must be finite and > 0")
+        for name in ("minimum_speed_m_s", "inching_speed_m_s", "command_resolution_m_s"):
+            value = getattr(self, name)
+            if not 0.0 <= value < self.max_speed_m_s:
+                raise ControllerError(
+                    f"{name} = {value!r}: must be at least 0 and below max_speed_m_s = {self.max_speed_m_s!r}"
+                )
+
 
 @dataclass(frozen=True)
 class CommandLimits:
@@ -67,9 +94,11 @@ class CommandLimits:
     max_command : float or int
         Largest command.
     acceleration_step, deceleration_step, quick_stop_step : float or int
-        Largest change of the ramped command in one tick.
-    landing_margin : float or int
-        A ramp this close to its target lands on it: the rounding that a whole ramp may collect. 0 in int32.
+        Largest change of the ramped command in one tick: a multiple of the grid unit, which is 1 in int32 and
+        elsewhere the distance from `ramp_anchor` to the next larger number.
+    ramp_anchor : float or int
+        Power of two above the largest command; added and taken away again, it rounds a command to the grid.
+        0 in int32, where commands are on the grid.
     minimum_command, inching_command, command_resolution : float or int
         As in `SpeedLimits`; 0 switches each off.
     units : str
@@ -82,7 +111,7 @@ class CommandLimits:
     acceleration_step: Any
     deceleration_step: Any
     quick_stop_step: Any
-    landing_margin: Any
+    ramp_anchor: Any
     minimum_command: Any
     inching_command: Any
     command_resolution: Any
@@ -110,46 +139,43 @@ def command_limits(speeds: SpeedLimits, *, tick_s: float, number: NumberType) ->
     Examples
     --------
     >>> from swayless.controller.number import number_type
-    >>> command_limits(SpeedLimits(0.5, 0.5), tick_s=0.01, number=number_type("double")).acceleration_step
-    0.005
+    >>> command_limits(SpeedLimits(0.5, 0.5), tick_s=0.125, number=number_type("double")).acceleration_step
+    0.0625
+    >>> command_limits(SpeedLimits(0.5, 0.5), tick_s=0.01, number=number_type("float")).acceleration_step
+    np.float32(0.0050001144)
     """
-    convert = _counts if number.is_integer else _real
-    max_command = convert("max_speed", speeds.max_speed_m_s, speeds, number)
-    steps = {
-        name: _step(name, value, max_command, speeds, tick_s, number)
+    max_command = _command("max_speed", speeds.max_speed_m_s, speeds, number)
+    grid = RampGrid(max_command, number)
+    steps = [
+        grid.unramped_step if value is None else _step(name, value, speeds, tick_s, grid)
         for name, value in (
             ("acceleration", speeds.acceleration_m_s2),
             ("deceleration", speeds.deceleration_m_s2),
             ("quick_stop", speeds.quick_stop_m_s2),
         )
-    }
-    smallest = min(steps.values())
-    if max_command / smallest > MAX_RAMP_TICKS:
-        raise ControllerError(f"a ramp of more than {MAX_RAMP_TICKS} ticks: raise the accelerations or the tick")
+    ]
     return CommandLimits(
         max_command=max_command,
-        acceleration_step=steps["acceleration"],
-        deceleration_step=steps["deceleration"],
-        quick_stop_step=steps["quick_stop"],
-        landing_margin=_landing_margin(max_command, smallest, number),
-        minimum_command=convert("minimum_speed", speeds.minimum_speed_m_s, speeds, number),
-        inching_command=convert("inching_speed", speeds.inching_speed_m_s, speeds, number),
-        command_resolution=convert("command_resolution", speeds.command_resolution_m_s, speeds, number),
+        acceleration_step=steps[0],
+        deceleration_step=steps[1],
+        quick_stop_step=steps[2],
+        ramp_anchor=grid.anchor,
+        minimum_command=_command("minimum_speed", speeds.minimum_speed_m_s, speeds, number),
+        inching_command=_command("inching_speed", speeds.inching_speed_m_s, speeds, number),
+        command_resolution=_command("command_resolution", speeds.command_resolution_m_s, speeds, number),
         units=speeds.units,
         units_per_m_s=speeds.units_per_m_s,
     )
 
 
-def _real(name: str, value_m_s: float, speeds: SpeedLimits, number: NumberType) -> Any:
-    value = number.scalar(value_m_s * speeds.units_per_m_s)
-    largest = 1e37 if number.name == "double" else 1e30
-    if not 0.0 <= value <= largest or (name == "max_speed" and value < 1.0 / largest):
-        raise ControllerError(f"{name} = {value_m_s!r} m/s is {value!r} {speeds.units}: outside the range of {number.name}")
-    return value
+def _command(name: str, value_m_s: float, speeds: SpeedLimits, number: NumberType) -> Any:
+    """Bring a speed into command units; in int32 rounded down."""
+    exact = as_written(value_m_s) * as_written(speeds.units_per_m_s)
+    return _counts(name, value_m_s, exact) if number.is_integer else _real(name, value_m_s, exact, number)
 
 
-def _counts(name: str, value_m_s: float, speeds: SpeedLimits, number: NumberType) -> int:
-    counts = math.floor(Fraction(repr(value_m_s)) * Fraction(repr(speeds.units_per_m_s)))
+def _counts(name: str, value_m_s: float, exact: Fraction) -> int:
+    counts = math.floor(exact)
     if counts > MAX_COUNTS:
         raise ControllerError(
             f"{name} = {value_m_s!r} m/s is {counts} counts: int32 allows {MAX_COUNTS}; lower counts_per_m_s"
@@ -159,37 +185,36 @@ def _counts(name: str, value_m_s: float, speeds: SpeedLimits, number: NumberType
     return counts
 
 
-def _step(
-    name: str, value_m_s2: float | None, max_command: Any, speeds: SpeedLimits, tick_s: float, number: NumberType
-) -> Any:
-    """Largest change in one tick. Without a ramp, twice the maximum: enough for every change."""
-    if value_m_s2 is None:
-        return 2 * max_command
-    if number.is_integer:
-        exact = Fraction(repr(value_m_s2)) * Fraction(repr(tick_s)) * Fraction(repr(speeds.units_per_m_s))
-        step = min(math.floor(exact), 2 * max_command)
-        if step < min(exact, 2 * max_command) * (1 - Fraction(repr(INTEGER_STEP_ERROR))):
-            raise ControllerError(
-                f"{name} = {value_m_s2!r} m/s2 is {float(exact):.6g} counts per tick, and int32 takes whole counts: "
-                f"raise counts_per_m_s to at least {math.ceil(speeds.units_per_m_s * 20 / float(exact))}"
-            )
-        return step
-    return min(number.scalar(value_m_s2 * tick_s * speeds.units_per_m_s), 2 * max_command)
-
-
-def _landing_margin(max_command: Any, step: Any, number: NumberType) -> Any:
-    """Bound the rounding that a whole ramp collects.
-
-    Each step rounds by at most half a unit in the last place of the command; half of the steps run in the
-    upper binade, a quarter in the next, and so on: ulp / 2 (1/2 + 1/8 + 1/32 + ...) = ulp / 3 on average.
-    """
-    if number.is_integer:
-        return 0
-    ticks = math.ceil(float(max_command) / float(step))
-    margin = (ticks + 1) * float(np.spacing(max_command)) / 3.0
-    if margin > LANDING_SHARE * float(step):
+def _real(name: str, value_m_s: float, exact: Fraction, number: NumberType) -> Any:
+    smallest, largest = REAL_RANGE
+    if exact != 0 and not smallest <= exact <= largest:
         raise ControllerError(
-            f"a ramp of {ticks} ticks to {float(max_command):.6g} collects too much rounding in {number.name}: "
-            "use double, a longer tick or higher accelerations"
+            f"{name} = {value_m_s!r} m/s is {float(exact):.6g} command units: "
+            f"{number.name} allows {smallest:.6g} to {largest:.6g}"
         )
-    return number.scalar(margin)
+    return number.scalar(float(exact))
+
+
+def _step(name: str, value_m_s2: float, speeds: SpeedLimits, tick_s: float, grid: RampGrid) -> Any:
+    """Bring an acceleration into command units per tick; refuse it where the grid is too coarse."""
+    per_tick_m_s = as_written(value_m_s2) * as_written(tick_s)
+    change = per_tick_m_s * as_written(speeds.units_per_m_s)
+    ticks = math.ceil(as_written(speeds.max_speed_m_s) / per_tick_m_s)
+    if ticks > MAX_RAMP_TICKS:
+        raise ControllerError(
+            f"{name} = {value_m_s2!r} m/s2 takes {ticks} ticks to full speed: allowed are {MAX_RAMP_TICKS}"
+        )
+    step = grid.step(change)
+    error = float(abs(Fraction(float(step)) / change - 1))
+    if step == grid.unramped_step or error <= (INTEGER_STEP_ERROR if grid.is_whole else FLOAT_STEP_ERROR):
+        return step
+    if grid.is_whole:
+        enough = math.ceil(speeds.units_per_m_s / (INTEGER_STEP_ERROR * float(change)))
+        raise ControllerError(
+            f"{name} = {value_m_s2!r} m/s2 is {float(change):.6g} counts per tick, "
+            f"and int32 takes whole counts: raise counts_per_m_s to at least {enough}"
+        )
+    raise ControllerError(
+        f"{name} = {value_m_s2!r} m/s2 takes {ticks} ticks to full speed, too many for float: "
+        "use double, a longer tick or a higher acceleration"
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -66,6 +67,22 @@ def number_type(name: str) -> NumberType:
     return NUMBER_TYPES[name]
 
 
+def as_written(value: float) -> Fraction:
+    """Give the number that the shortest decimal of a float says.
+
+    Parameters
+    ----------
+    value : float
+        Finite.
+
+    Examples
+    --------
+    >>> as_written(0.01)
+    Fraction(1, 100)
+    """
+    return Fraction(repr(float(value)))
+
+
 def amplitudes_on_lattice(amplitudes: np.typing.ArrayLike, bits: int) -> list[int]:
     """Quantise amplitudes to whole multiples of ``2**-bits`` that sum to exactly ``2**bits``.
 
@@ -98,4 +115,4 @@ def amplitudes_on_lattice(amplitudes: np.typing.ArrayLike, bits: int) -> list[in
         partial += Fraction(amplitude)
         sums.append(round(partial * one))
     sums[-1] = one
-    return [high - low for low, high in zip(sums[:-1], sums[1:], strict=True)]
+    return [high - low for low, high in pairwise(sums)]

@@ -6,9 +6,9 @@ Not for: the law itself.
 from __future__ import annotations
 
 import math
-from fractions import Fraction
 from typing import Any
 
+from swayless.controller.number import as_written
 from swayless.controller.settings import ShaperSettings
 from swayless.errors import ControllerError
 
@@ -28,7 +28,9 @@ def residual_bounds(settings: ShaperSettings) -> tuple[Any, ...]:
         Constants of the block.
     """
     if settings.number.is_integer:
-        return tuple(math.ceil(Fraction(repr(t.residual_bound_ratio)) * RESIDUAL_PPM) for t in settings.row_tables)
+        return tuple(
+            math.ceil(as_written(t.residual_bound_ratio) * RESIDUAL_PPM) for t in settings.row_tables
+        )
     return tuple(settings.number.scalar(t.residual_bound_ratio) for t in settings.row_tables)
 
 
@@ -48,7 +50,7 @@ class OutputUnits:
 
     def __init__(self, settings: ShaperSettings) -> None:
         self._number = settings.number
-        per_unit = Fraction(repr(settings.tick_s)) / Fraction(repr(settings.limits.units_per_m_s))
+        per_unit = as_written(settings.tick_s) / as_written(settings.limits.units_per_m_s)
         if not self._number.is_integer:
             self.metres_per_unit_tick = self._number.scalar(float(per_unit))
             self.tick_s = self._number.scalar(settings.tick_s)
@@ -56,12 +58,17 @@ class OutputUnits:
         largest = _largest_sum(settings)
         millimetres = per_unit * 1000
         if largest * millimetres >= 1 << 31:
-            raise ControllerError("the longest stop distance exceeds 2^31 mm: check max_speed and counts_per_m_s")
+            raise ControllerError(
+                "the longest stop distance exceeds 2^31 mm: check max_speed and counts_per_m_s"
+            )
         self.distance_shift = 0
-        while self.distance_shift < 60 and round(millimetres * (1 << (self.distance_shift + 1))) * largest < 1 << 62:
+        while (
+            self.distance_shift < 60
+            and round(millimetres * (1 << (self.distance_shift + 1))) * largest < 1 << 62
+        ):
             self.distance_shift += 1
         self.distance_scale = round(millimetres * (1 << self.distance_shift))
-        self.time_scale = math.floor(Fraction(repr(settings.tick_s)) * (1 << TIME_SHIFT))
+        self.time_scale = math.floor(as_written(settings.tick_s) * (1 << TIME_SHIFT))
 
     def distance(self, total: Any) -> Any:
         """Scale a sum of references to metres; in int32 to millimetres, rounded to the nearest."""
@@ -82,5 +89,5 @@ def _largest_sum(settings: ShaperSettings) -> int:
     """Bound the sum of references of any stop: two ramps, two settlings and a hold at the maximum."""
     limits = settings.limits
     slowest = min(limits.acceleration_step, limits.deceleration_step, limits.quick_stop_step)
-    ramp_ticks = -(-limits.max_command // slowest)
+    ramp_ticks = -(-int(limits.max_command) // int(slowest))
     return int(limits.max_command) * (2 * ramp_ticks + 4 * settings.longest_delay_ticks + 4)

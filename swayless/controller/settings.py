@@ -68,8 +68,12 @@ class ShaperSettings:
     def __post_init__(self) -> None:
         if self.number.is_integer:
             peak = max(sum(abs(a) for a in table.amplitudes) for table in self.row_tables)
-            if peak * self.limits.max_command >= 1 << 62:
-                raise ControllerError("amplitudes times the largest command exceed 64 bits: lower counts_per_m_s")
+            if peak * self.limits.max_command >= (1 << 62) - (
+                1 << 30
+            ):  # and room for the carry and for rounding
+                raise ControllerError(
+                    "amplitudes times the largest command exceed 64 bits: lower counts_per_m_s"
+                )
 
     @property
     def number(self) -> NumberType:

@@ -1,8 +1,8 @@
 """Taps applied to a command, tick by tick, with the references still to come. Not for: ramps, stops or rows.
 
-A filter is either *at rest*, when all commands within reach of the taps are equal, or running. At rest nothing
-is written: the equal commands are one number, and the next change starts a new lap of the ring. Until that
-first lap is full, what lies further back is the command of the rest.
+A filter is either *at rest*, when all commands within reach of the taps are equal, or running. At rest
+nothing is written: the equal commands are one number, and the next change starts a new lap of the ring.
+Until that first lap is full, what lies further back is the command of the rest.
 """
 
 from __future__ import annotations
