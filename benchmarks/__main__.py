@@ -1,0 +1,14 @@
+"""Print every benchmark, ratios to peers measured in the same run: `python -m benchmarks`."""
+
+from benchmarks import commands, design, running
+
+
+def main() -> None:
+    """Run every benchmark."""
+    for part in (design, running, commands):
+        for text in part.report():
+            print(text)
+
+
+if __name__ == "__main__":
+    main()
