@@ -5,7 +5,7 @@ from swayless.controller.limits import CommandLimits, SpeedLimits, command_limit
 from swayless.controller.number import NUMBER_TYPES, NumberType, number_type
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.status import Status, explain
-from swayless.controller.taps import Bank, Row, Taps, quantised_taps
+from swayless.controller.taps import Bank, Row, Taps, quantised_taps, shaped
 
 __all__ = [
     "Bank",
@@ -24,4 +24,5 @@ __all__ = [
     "explain",
     "number_type",
     "quantised_taps",
+    "shaped",
 ]

@@ -1,4 +1,4 @@
-"""Taps, rows and banks: impulses on the tick grid in a number type. Not for: finding them (that is design)."""
+"""Taps, rows and banks: impulses on the tick grid in a number type. Not for: finding them; that is design."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Taps:
     @property
     def times_s(self) -> FloatArray:
         """Times of the taps, shape (n,)."""
-        return self.delays_ticks * self.tick_s
+        return self.delays_ticks.astype(np.float64) * self.tick_s
 
     @property
     def longest_delay_ticks(self) -> int:
@@ -95,7 +95,11 @@ class Taps:
 
 
 def quantised_taps(
-    delays_ticks: NDArray[np.int64], amplitudes: FloatArray, tick_s: float, guarantee: Guarantee, number: NumberType
+    delays_ticks: NDArray[np.int64],
+    amplitudes: FloatArray,
+    tick_s: float,
+    guarantee: Guarantee,
+    number: NumberType,
 ) -> Taps:
     """Bring taps into a number type and prove their guarantee again on what results.
 
@@ -127,10 +131,42 @@ def quantised_taps(
     )
     if worst > guarantee.tolerance * (1.0 + GUARANTEE_SLACK):
         raise ControllerError(
-            f"taps in {number.name} leave {100 * worst:.6g} % where {100 * guarantee.tolerance:.6g} % is promised "
+            f"taps in {number.name} leave {100 * worst:.6g} % "
+            f"where {100 * guarantee.tolerance:.6g} % is promised "
             f"between {guarantee.band.low_hz:.6g} and {guarantee.band.high_hz:.6g} Hz"
         )
     return taps
+
+
+def shaped(taps: Taps, commands: FloatArray) -> FloatArray:
+    """Shape a whole record of commands at once: the convolution that the block computes tick by tick.
+
+    Parameters
+    ----------
+    taps : Taps
+        What shapes.
+    commands : ndarray, shape (ticks,)
+        One command for each tick; before the first the command was 0.
+
+    Returns
+    -------
+    ndarray, shape (ticks,)
+        References in double, summed in the order of the taps.
+
+    Examples
+    --------
+    >>> from swayless.controller.number import number_type
+    >>> from swayless.plant import Band, Mode
+    >>> held = Guarantee(0.05, Mode(1.0), Band(0.97, 1.03), 0.05)
+    >>> taps = Taps(np.array([0, 2]), np.array([0.5, 0.5]), 0.25, held, number_type("double"))
+    >>> shaped(taps, np.array([1.0, 1.0, 1.0, 0.0])).tolist()
+    [0.5, 0.5, 1.0, 0.5]
+    """
+    commands = np.asarray(commands, dtype=np.float64)
+    references = taps.amplitudes[0] * commands
+    for delay, amplitude in zip(taps.delays_ticks[1:].tolist(), taps.amplitudes[1:].tolist(), strict=True):
+        references[delay:] += amplitude * commands[: max(commands.size - delay, 0)]
+    return references
 
 
 @dataclass(frozen=True)
