@@ -6,6 +6,7 @@ Not for: the residual vibration itself (`residual`), nor for searching shapers.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -22,13 +23,14 @@ DEFAULT_TOLERANCE = 0.05
 TOUCH_SLACK = 1e-9
 """By how much of the tolerance a hump that is designed to touch it may stand above it, by rounding."""
 
-WIDEST_RATIO = 128.0
+WIDEST_RATIO = 16.0
 """A held band is cut at this many times the mode's frequency: on a damped mode it may have no upper end."""
 
 # V^2 holds no oscillation over frequency faster than the duration. At this many samples per such period a
 # cubic through values and slopes is off by at most (2 pi / 64)^4 / 384 = 2.5e-7 of the largest V^2.
 _SAMPLES_PER_PERIOD = 64
-_PEAK_ROUNDS = 3  # errors of a peak's place: 1e-5, 1e-8, rounding; the value is flat there
+_CUBIC_ERROR = 1e-6
+_PEAK_ROUNDS = 3  # errors of a peak's place: 1e-5 by the cubic, then 1e-6, 1e-11; the value is flat there
 _EDGE_ROUNDS = 60  # of safeguarded Newton; bisection alone would be at rounding by then
 _EDGE_ACCURACY = 4e-15  # relative, of an edge's place
 
@@ -106,7 +108,7 @@ def worst_residual(impulses: Impulses, band: Band, *, damping_ratio: float = 0.0
     """
     count = 2 + _sample_count(impulses, band.high_hz - band.low_hz)
     samples_hz = np.linspace(band.low_hz, band.high_hz, count)
-    _, ratio = _profile(impulses, samples_hz, damping_ratio, ceiling=math.inf)
+    _, ratio = _profile(impulses, samples_hz, damping_ratio, ceiling=None)
     return float(ratio.max())
 
 
@@ -231,46 +233,58 @@ def _profile_beyond_band(impulses: Impulses, mode: Mode, ceiling: float) -> tupl
 
 
 def _profile(
-    impulses: Impulses, samples_hz: FloatArray, damping_ratio: float, ceiling: float
+    impulses: Impulses, samples_hz: FloatArray, damping_ratio: float, ceiling: float | None
 ) -> tuple[FloatArray, FloatArray]:
-    """Evaluate V at samples, and at every local maximum between two that are within the ceiling."""
+    """Evaluate V at samples, and at maxima between them that may exceed the ceiling (None: the samples)."""
     ratio, slope_s = residual_vibration_and_slope(impulses, samples_hz, damping_ratio=damping_ratio)
     # Columns are samples; rows are place, V^2 and its slope. V^2 is smooth at the zeros, where V has corners.
     knots = np.stack([samples_hz, ratio**2, 2.0 * ratio * slope_s])
-    crest = _cubic_maximum(knots[:, :-1], knots[:, 1:])
-    found = (crest > 0.0) & (crest < 1.0) & (ratio[:-1] <= ceiling) & (ratio[1:] <= ceiling)
-    if not found.any():
+    level = ratio.max() if ceiling is None else ceiling
+    crest, height = _cubic_maximum(knots[:, :-1], knots[:, 1:])
+    found = (crest > 0.0) & (crest < 1.0) & (height > level**2 - _CUBIC_ERROR * knots[1].max())
+    slots = 1 + np.flatnonzero(found & (ratio[:-1] <= level) & (ratio[1:] <= level))
+    if slots.size == 0:
         return samples_hz, ratio
-    slots = 1 + np.flatnonzero(found)
-    peaks_hz, peaks = _climb(impulses, knots[:, slots - 1], knots[:, slots], damping_ratio)
+    residual = residual_at(impulses, damping_ratio)
+    left_hz, right_hz, left_slope = samples_hz[slots - 1], samples_hz[slots], knots[2, slots - 1]
+    place_hz = left_hz + crest[slots - 1] * (right_hz - left_hz)
+    climbs = zip(place_hz.tolist(), left_hz.tolist(), right_hz.tolist(), left_slope.tolist(), strict=True)
+    peaks, peaks_hz = zip(*(_climb(residual, *climb) for climb in climbs), strict=True)
     return np.insert(samples_hz, slots, peaks_hz), np.insert(ratio, slots, peaks)
 
 
 def _climb(
-    impulses: Impulses, left: FloatArray, right: FloatArray, damping_ratio: float
-) -> tuple[FloatArray, FloatArray]:
-    """Refine the maximum between each left and right knot: places and values."""
-    place_hz = value = left[0]
+    residual: Callable[[float], tuple[float, float]],
+    place_hz: float,
+    left_hz: float,
+    right_hz: float,
+    left_slope: float,
+) -> tuple[float, float]:
+    """Refine a maximum between two places by secants of the slope of V^2: its value and place."""
+    peak, earlier_hz, earlier_slope = (0.0, place_hz), left_hz, left_slope
     for _ in range(_PEAK_ROUNDS):
-        place_hz = left[0] + np.clip(_cubic_maximum(left, right), 0.0, 1.0) * (right[0] - left[0])
-        value, slope_s = residual_vibration_and_slope(impulses, place_hz, damping_ratio=damping_ratio)
-        middle = np.stack([place_hz, value**2, 2.0 * value * slope_s])
-        rising = middle[2] > 0.0
-        left, right = np.where(rising, middle, left), np.where(rising, right, middle)
-    return place_hz, value
+        ratio, slope_s = residual(place_hz)
+        peak, slope = max(peak, (ratio, place_hz)), 2.0 * ratio * slope_s
+        if slope == earlier_slope:
+            break
+        step_hz = slope * (place_hz - earlier_hz) / (slope - earlier_slope)
+        earlier_hz, earlier_slope = place_hz, slope
+        place_hz = min(max(place_hz - step_hz, left_hz), right_hz)
+    return peak
 
 
-def _cubic_maximum(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Find the maximum of the cubic through two knots, from 0 (left) to 1 (right); -1 if there is none."""
+def _cubic_maximum(left: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Find the maximum of the cubic through two knots: place, 0 (left) to 1 (right) or -1, and height."""
     width = right[0] - left[0]
     rise, start, end = right[1] - left[1], left[2] * width, right[2] * width
     square = 3.0 * rise - 2.0 * start - end
-    discriminant = square**2 - 3.0 * (start + end - 2.0 * rise) * start
+    cube = start + end - 2.0 * rise
+    discriminant = square**2 - 3.0 * cube * start
     denominator = np.sqrt(np.maximum(discriminant, 0.0)) - square
     exists = (discriminant >= 0.0) & (np.abs(denominator) > np.abs(start))
     place: FloatArray = np.full_like(start, -1.0)
     np.divide(start, denominator, out=place, where=exists)
-    return place
+    return place, left[1] + place * (start + place * (square + place * cube))
 
 
 def _edge(impulses: Impulses, mode: Mode, tolerance: float, inside_hz: float, outside_hz: float) -> float:

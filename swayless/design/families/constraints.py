@@ -152,11 +152,10 @@ class Constraints:
         free = unknowns[at.period :]
         ratio = 1.0 / np.concatenate((free[: self.zeros], [1.0], free[self.zeros :]))
         turn_ratio, turn_lag = (turn * ratio)[:, np.newaxis], turn * lag
-        exponent = turn_ratio * lag
-        terms = amplitudes * np.exp(exponent)
-        slope_terms = terms * turn_lag
-        by_amplitude = np.stack((terms, slope_terms))
-        by_lag = np.stack((turn_ratio * terms, turn * terms + turn * exponent * terms))
+        terms = amplitudes * np.exp(turn_ratio * lag)
+        by_amplitude = np.array((terms, terms * turn_lag))
+        by_lag = turn_ratio * by_amplitude
+        by_lag[1] += turn * terms
         rows = np.zeros((2, ratio.size, unknowns.size + 1), dtype=np.complex128)
         rows[..., : at.time] = by_amplitude[..., : at.time]
         rows[..., at.time : at.period - 1] = by_lag[..., 1:-1]

@@ -105,7 +105,7 @@ def _course(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Correct a point on the branch once more; find the branch's first and second derivative there."""
     residuals, jacobian, decay_slope = constraints.linearise(unknowns, decay, tolerance)
-    correction, tangent = np.linalg.solve(jacobian, -np.stack((residuals, decay_slope), axis=1)).T
+    correction, tangent = np.linalg.solve(jacobian, -np.array((residuals, decay_slope)).T).T
     refined = unknowns + correction
     _, jacobian, decay_slope = constraints.linearise(refined - _NUDGE * tangent, decay - _NUDGE, tolerance)
     earlier_tangent = np.linalg.solve(jacobian, -decay_slope)
