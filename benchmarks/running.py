@@ -36,11 +36,16 @@ double run(int changing, long ticks, int selector)
     input.selector = (unsigned char)selector;
     input.command = 0.3;
     for (i = 0; i < ticks; ++i) {
-        if (changing > 0) {
+        if (changing == 1) {
+            /* a joystick in motion: a triangle of 500 ticks */
+            input.command = (double)((i % 500) < 250 ? (i % 500) : (500 - (i % 500))) / 250.0 - 0.5;
+        } else if (changing > 1) {
             random = random * 1664525u + 1013904223u;
             input.command = (double)(random >> 8) / 16777216.0 - 0.5;
+        } else {
+            /* held */
         }
-        if (changing < 2) {
+        if (changing < 3) {
             srtc_gantry_shaper_step(&shaper, &input, &output);
             sum += output.reference;
         } else {
@@ -87,11 +92,11 @@ def _generated(files: list[GeneratedFile]) -> list[str]:
         compiler._run([*flags, *map(str, sources), "-o", str(library)], "the benchmark")
         run = ctypes.CDLL(str(library)).run
         run.restype = ctypes.c_double
-        plain_s = best_s(lambda: run(2, SAMPLES, 0))
-        held_s = best_s(lambda: run(0, SAMPLES, 1))
-        changing_s = best_s(lambda: run(1, SAMPLES, 1))
+        plain_s = best_s(lambda: run(3, SAMPLES, 0))
+        held_s, moving_s, noisy_s = (best_s(lambda kind=kind: run(kind, SAMPLES, 1)) for kind in (0, 1, 2))
     peer = "a bare three-tap ring with modulo"
     return [
         line(f"{SAMPLES} ticks of generated C, command held", held_s, "1 ms", peer, plain_s),
-        line(f"{SAMPLES} ticks of generated C, command changing", changing_s, "3 ms", peer, plain_s),
+        line(f"{SAMPLES} ticks of generated C, command moving", moving_s, "3 ms", peer, plain_s),
+        line(f"{SAMPLES} ticks of generated C, command white noise", noisy_s, "3 ms", peer, plain_s),
     ]
