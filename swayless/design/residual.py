@@ -137,16 +137,52 @@ def residual_vibration_and_slope(
     >>> round(float(ratio), 12), round(float(slope_s), 9)  # |cos(pi f / 2)| at 1.5 Hz
     (0.707106781187, 1.110720735)
     """
+    square, square_slope_s = squared_residual_and_slope(impulses, frequency_hz, damping_ratio=damping_ratio)
+    ratio = np.sqrt(square)
+    slope_s = np.zeros_like(ratio)
+    np.divide(0.5 * square_slope_s, ratio, out=slope_s, where=ratio > 0.0)
+    return ratio, slope_s
+
+
+def squared_residual_and_slope(
+    impulses: Impulses, frequency_hz: ArrayLike, *, damping_ratio: ArrayLike = 0.0
+) -> tuple[FloatArray, FloatArray]:
+    """Square of the residual vibration and its derivative: smooth also at the zeros, where V has corners.
+
+    Parameters
+    ----------
+    impulses, frequency_hz, damping_ratio
+        As for `residual_vibration`.
+
+    Returns
+    -------
+    square : ndarray
+        V^2.
+    slope_s : ndarray
+        dV^2/df in 1/Hz.
+
+    Raises
+    ------
+    DesignError
+        If a frequency or a damping ratio is out of range.
+
+    Examples
+    --------
+    >>> from swayless.design import design_shaper
+    >>> from swayless.plant import Mode
+    >>> square, slope_s = squared_residual_and_slope(design_shaper("zv", Mode(1.0)), 1.5)
+    >>> round(float(square), 12), round(float(slope_s), 9)  # cos(pi f / 2)^2 at 1.5 Hz
+    (0.5, 1.570796327)
+    """
     frequency, damping, shape = _broadcast(frequency_hz, damping_ratio)
     lag_s = impulses.times_s - _last_time_s(impulses)
-    weights = np.stack([impulses.amplitudes, impulses.amplitudes * lag_s])
+    weights = np.array((impulses.amplitudes, impulses.amplitudes * lag_s))
     (real, real_lag), (imag, imag_lag) = _transform(weights, lag_s, frequency, damping)
-    ratio = np.sqrt(real * real + imag * imag)
     oscillation = np.sqrt(1.0 - damping**2)  # dG/dw = (z + j sqrt(1 - z^2)) sum A_i lag_i exp(...)
-    growth = real * (damping * real_lag - oscillation * imag_lag)
-    growth += imag * (damping * imag_lag + oscillation * real_lag)
-    slope_s = np.divide(2.0 * np.pi * growth, ratio, out=np.zeros_like(ratio), where=ratio > 0.0)
-    return ratio.reshape(shape), slope_s.reshape(shape)
+    growth = damping * (real * real_lag + imag * imag_lag)
+    growth += oscillation * (imag * real_lag - real * imag_lag)
+    square = real * real + imag * imag
+    return square.reshape(shape), (4.0 * np.pi * growth).reshape(shape)
 
 
 def residual_at(impulses: Impulses, damping_ratio: float) -> Callable[[float], tuple[float, float]]:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swayless.design.residual import residual_at, residual_vibration_and_slope
+from swayless.design.residual import residual_at, squared_residual_and_slope
 from swayless.design.shaper import FloatArray, Guarantee, Impulses, Shaper
 from swayless.errors import DesignError
 from swayless.plant import Band, Mode, pendulum_rope_length_m
@@ -236,9 +236,9 @@ def _profile(
     impulses: Impulses, samples_hz: FloatArray, damping_ratio: float, ceiling: float | None
 ) -> tuple[FloatArray, FloatArray]:
     """Evaluate V at samples, and at maxima between them that may exceed the ceiling (None: the samples)."""
-    ratio, slope_s = residual_vibration_and_slope(impulses, samples_hz, damping_ratio=damping_ratio)
-    # Columns are samples; rows are place, V^2 and its slope. V^2 is smooth at the zeros, where V has corners.
-    knots = np.stack([samples_hz, ratio**2, 2.0 * ratio * slope_s])
+    square, slope_s = squared_residual_and_slope(impulses, samples_hz, damping_ratio=damping_ratio)
+    knots = np.array((samples_hz, square, slope_s))  # columns are samples
+    ratio = np.sqrt(square)
     level = ratio.max() if ceiling is None else ceiling
     crest, height = _cubic_maximum(knots[:, :-1], knots[:, 1:])
     found = (crest > 0.0) & (crest < 1.0) & (height > level**2 - _CUBIC_ERROR * knots[1].max())
