@@ -67,6 +67,10 @@ def number_type(name: str) -> NumberType:
     return NUMBER_TYPES[name]
 
 
+SUM_ROUNDING = 1e-12
+"""How far a sum of amplitudes may be off by rounding: a handful of doubles and no more."""
+
+
 def as_written(value: float) -> Fraction:
     """Give the number that the shortest decimal of a float says.
 
@@ -87,7 +91,8 @@ def amplitudes_on_lattice(amplitudes: np.typing.ArrayLike, bits: int) -> list[in
     """Quantise amplitudes to whole multiples of ``2**-bits`` that sum to exactly ``2**bits``.
 
     The *partial sums* are rounded and their differences taken, so that positive amplitudes stay positive and
-    partial sums within [0, 1] stay within [0, 1]. Each amplitude moves by at most one unit of the lattice.
+    partial sums within [0, 1], but for rounding, are so exactly. Each amplitude moves by at most one unit of
+    the lattice and that rounding.
 
     Parameters
     ----------
@@ -101,6 +106,11 @@ def amplitudes_on_lattice(amplitudes: np.typing.ArrayLike, bits: int) -> list[in
     list of int
         Numerators over ``2**bits``.
 
+    Raises
+    ------
+    ControllerError
+        If the amplitudes do not sum to 1.
+
     Examples
     --------
     >>> amplitudes_on_lattice([0.25, 0.5, 0.25], 30)
@@ -113,6 +123,14 @@ def amplitudes_on_lattice(amplitudes: np.typing.ArrayLike, bits: int) -> list[in
     sums = [0]
     for amplitude in np.asarray(amplitudes, dtype=np.float64).tolist():
         partial += Fraction(amplitude)
-        sums.append(round(partial * one))
+        sums.append(round(_within_0_and_1(partial) * one))
+    if abs(partial - 1) > SUM_ROUNDING:
+        raise ControllerError(f"amplitudes sum to {float(partial)!r}, not to 1")
     sums[-1] = one
     return [high - low for low, high in pairwise(sums)]
+
+
+def _within_0_and_1(partial: Fraction) -> Fraction:
+    """Bring a partial sum back that left [0, 1] by rounding; one that left it by more stays."""
+    nearest = min(max(partial, Fraction(0)), Fraction(1))
+    return nearest if abs(partial - nearest) <= SUM_ROUNDING else partial

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +30,7 @@ class Taps:
     amplitudes : ndarray, shape (n,)
         Multiples of ``2**-number.amplitude_bits`` that sum to exactly 1, every partial sum within [0, 1].
     tick_s : float
-        Length of a tick, > 0.
+        Length of a tick, finite and > 0.
     guarantee : Guarantee
         What these very amplitudes hold.
     number : NumberType
@@ -50,6 +51,8 @@ class Taps:
     def __post_init__(self) -> None:
         delays = np.array(self.delays_ticks, dtype=np.int64)
         amplitudes = np.array(self.amplitudes, dtype=np.float64)
+        if not 0.0 < self.tick_s < math.inf:
+            raise ControllerError(f"taps: tick_s = {self.tick_s!r}: must be finite and > 0")
         if delays.ndim != 1 or delays.shape != amplitudes.shape or delays.size == 0:
             raise ControllerError("taps: delays and amplitudes must be non-empty and of one length")
         if delays[0] != 0 or np.any(np.diff(delays) <= 0):
@@ -163,7 +166,7 @@ def shaped(taps: Taps, commands: FloatArray) -> FloatArray:
     [0.5, 0.5, 1.0, 0.5]
     """
     commands = np.asarray(commands, dtype=np.float64)
-    references = taps.amplitudes[0] * commands
+    references: FloatArray = taps.amplitudes[0] * commands
     for delay, amplitude in zip(taps.delays_ticks[1:].tolist(), taps.amplitudes[1:].tolist(), strict=True):
         references[delay:] += amplitude * commands[: max(commands.size - delay, 0)]
     return references
@@ -211,6 +214,8 @@ class Bank:
     def __post_init__(self) -> None:
         if not 1 <= len(self.rows) <= 254:
             raise ControllerError(f"a bank has 1 to 254 rows, got {len(self.rows)}")
+        if self.longest_delay_ticks == 0:
+            raise ControllerError("a bank needs a row with a delay: a single tap shapes nothing")
         if len({(row.taps.tick_s, row.taps.number.name) for row in self.rows}) != 1:
             raise ControllerError("all rows of a bank must have one tick and one number type")
         if self.selection != "knob":
