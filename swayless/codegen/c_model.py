@@ -11,7 +11,7 @@ from swayless.codegen.features import Features, features_of
 from swayless.codegen.interface import Pin, input_pins, output_pins
 from swayless.codegen.literals import c_literal
 from swayless.codegen.names import check_c_names
-from swayless.codegen.provenance import Provenance, header_lines
+from swayless.codegen.provenance import Provenance, check_comments, header_lines
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.ramp import Glider
 from swayless.controller.settings import ShaperSettings
@@ -88,7 +88,7 @@ class CModel:
     Raises
     ------
     CodegenError
-        If the machine name cannot prefix C symbols.
+        If the machine name cannot prefix C symbols, or a text cannot stand in a comment.
     """
 
     settings: ShaperSettings
@@ -96,6 +96,7 @@ class CModel:
 
     def __post_init__(self) -> None:
         check_c_names(self.origin.name)
+        check_comments(self.settings, self.origin)
 
     # ---- names, types and literals ---------------------------------------------------------------
 

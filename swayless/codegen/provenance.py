@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.taps import Row
 from swayless.design.robustness import overtravel_s, peak_factor, rope_length_interval_m
+from swayless.errors import CodegenError
+
+NOT_IN_COMMENTS = "*{}$\\"
+"""Characters with which a text could end a comment, begin one, or be a pragma or an escape in some target."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +37,52 @@ class Provenance:
     source: str | None
     design_sha256: str
     hangs_on_rope: bool
+
+    def __post_init__(self) -> None:
+        if not re.fullmatch("[0-9a-f]{64}", self.design_sha256):
+            raise CodegenError(f"design_sha256 = {self.design_sha256!r}: must be 64 hexadecimal digits")
+
+
+def comment_text(text: str) -> str:
+    """Return a text of the user's as it may stand in a generated comment.
+
+    Parameters
+    ----------
+    text : str
+        Name of a row, unit or file.
+
+    Raises
+    ------
+    CodegenError
+        If it is not printable ASCII or holds a character that could end the comment.
+
+    Examples
+    --------
+    >>> comment_text("24 ft, no wind")
+    '24 ft, no wind'
+    """
+    if not (text.isascii() and text.isprintable()) or any(mark in text for mark in NOT_IN_COMMENTS):
+        raise CodegenError(
+            f"{text!r} cannot stand in a comment: use printable ASCII without {' '.join(NOT_IN_COMMENTS)}"
+        )
+    return text
+
+
+def check_comments(settings: ShaperSettings, provenance: Provenance) -> None:
+    """Refuse texts of the user's that cannot stand in a comment; see `comment_text`.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block, with units and rows.
+    provenance : Provenance
+        Where it comes from.
+    """
+    for text in (provenance.generator, provenance.source or "", settings.limits.units):
+        comment_text(text)
+    for row in settings.bank.rows:
+        comment_text(row.name)
+        comment_text(row.family)
 
 
 def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[str]) -> list[str]:

@@ -11,7 +11,7 @@ from swayless.codegen.features import Features, features_of
 from swayless.codegen.interface import Pin, input_pins, output_pins
 from swayless.codegen.literals import st_literal
 from swayless.codegen.names import check_st_names
-from swayless.codegen.provenance import Provenance, header_lines
+from swayless.codegen.provenance import Provenance, check_comments, header_lines
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.ramp import Glider
 from swayless.controller.settings import ShaperSettings
@@ -71,7 +71,8 @@ class StModel:
     Raises
     ------
     CodegenError
-        If the number type is int32, or a name is reserved, too long or collides.
+        If the number type is int32, a name is reserved, too long or collides, or a text cannot stand in a
+        comment.
     """
 
     settings: ShaperSettings
@@ -86,6 +87,7 @@ class StModel:
         names = [pin.st_name for pin in (*input_pins(self.settings), *output_pins(self.settings))]
         names += [item.st_name for group in (self.st_constants, self.st_tables) for item in group]
         names += [item.st_name for group in (self.st_state, self.st_scratch) for item in group]
+        check_comments(self.settings, self.origin)
         check_st_names(self.name, [f"FB_{self.name}_Shaper", "Initialized", *names])
 
     @property
