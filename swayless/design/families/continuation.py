@@ -69,11 +69,14 @@ def solve(
         If the branch of solutions ends before the mode's damping: the message names the end.
     """
     decay = mode.damping_ratio / math.sqrt(1.0 - mode.damping_ratio**2)
-    unknowns, reached = _follow(constraints, start, decay, tolerance)
+    with np.errstate(
+        all="ignore"
+    ):  # near the end of a branch trial steps may overflow: they fail, and shrink
+        unknowns, reached = _follow(constraints, start, decay, tolerance)
     if reached < decay:
         limit = math.floor(1e4 * reached / math.hypot(1.0, reached)) / 1e4
-        which = f"{family} at tolerance {tolerance!r}" if tolerance else family
-        raise DesignError(f"{which} exists up to damping_ratio {limit:.4f}, got {mode.damping_ratio!r}")
+        which = f"{family} at tolerance {tolerance:g}" if tolerance else family
+        raise DesignError(f"{which} exists up to damping_ratio {limit:.4f}, got {mode.damping_ratio:.6g}")
     times_s = constraints.times(unknowns) * mode.damped_period_s
     return times_s.tolist(), constraints.amplitudes(unknowns).tolist()
 
@@ -105,10 +108,10 @@ def _course(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Correct a point on the branch once more; find the branch's first and second derivative there."""
     residuals, jacobian, decay_slope = constraints.linearise(unknowns, decay, tolerance)
-    correction, tangent = np.linalg.solve(jacobian, -np.array((residuals, decay_slope)).T).T
+    correction, tangent = _newton(jacobian, np.array((residuals, decay_slope)).T).T
     refined = unknowns + correction
     _, jacobian, decay_slope = constraints.linearise(refined - _NUDGE * tangent, decay - _NUDGE, tolerance)
-    earlier_tangent = np.linalg.solve(jacobian, -decay_slope)
+    earlier_tangent = _newton(jacobian, decay_slope)
     return refined, tangent, (tangent - earlier_tangent) / _NUDGE
 
 
@@ -127,12 +130,20 @@ def _correct(
         if not constraints.holds_order(unknowns):
             return None
         residuals, jacobian, _ = constraints.linearise(unknowns, decay, tolerance)
-        correction = np.linalg.solve(jacobian, -residuals)
+        correction = _newton(jacobian, residuals)
         size = float(np.abs(correction).max())
-        if size > allowed:
+        if not size <= allowed:  # larger, or not a number
             return None
         unknowns = unknowns + correction
         if size < needed:
             return unknowns
         allowed = _CONTRACTION * size
     return None
+
+
+def _newton(jacobian: FloatArray, residuals: FloatArray) -> FloatArray:
+    """Solve for what brings the residuals to 0; not a number where the equations are singular."""
+    try:
+        return np.linalg.solve(jacobian, -residuals).astype(np.float64, copy=False)
+    except np.linalg.LinAlgError:
+        return np.full_like(residuals, np.nan)

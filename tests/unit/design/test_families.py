@@ -169,8 +169,18 @@ def test_a_branch_that_ends_is_designed_up_to_its_end_and_refused_beyond_with_th
         design_shaper(name, Mode(1.0, limit + 1e-3), tolerance=tolerance)
     stated = float(str(refused.value).split("damping_ratio ")[1].split(",")[0])
     assert str(refused.value).startswith(f"{name} at tolerance {tolerance} exists up to damping_ratio ")
-    assert str(refused.value).endswith(f"got {limit + 1e-3}")
+    assert str(refused.value).endswith(f"got {limit + 1e-3:.6g}")
     assert stated == pytest.approx(limit, abs=1.5e-4)  # four digits are printed, rounded down
+
+
+@pytest.mark.parametrize(
+    ("name", "tolerance", "damping_ratio"),
+    [("ei", 0.999999, 0.1), ("um-zvd", 0.05, 0.9999), ("ei2", 2.4e-5, 0.99)],
+)
+def test_at_the_extremes_a_design_either_holds_or_names_its_limit(name, tolerance, damping_ratio):
+    # Tolerances near 1 and dampings near 1, where impulses merge and the equations become singular.
+    with pytest.raises(DesignError, match=r"exists up to damping_ratio 0\.\d{4}, got"):
+        design_shaper(name, Mode(1.0, damping_ratio), tolerance=tolerance)
 
 
 def test_an_unknown_family_names_the_nearest_known_ones():
