@@ -1,8 +1,10 @@
-"""The `swayless` program: its commands, and the exit code of every error. Not for: what commands do."""
+"""The `swayless` program: commands, help, and the exit code of every error. Not for: what commands do."""
 
 from __future__ import annotations
 
+import inspect
 import sys
+from collections.abc import Callable
 from typing import Annotated
 
 import typer
@@ -12,11 +14,25 @@ from swayless.cli.build import build
 from swayless.cli.design import design
 from swayless.cli.generate import generate
 from swayless.cli.init import init
+from swayless.cli.options import OptionError
 from swayless.cli.plot import plot
 from swayless.cli.verify import verify
-from swayless.errors import SwaylessError, ToolMissingError, VerificationError
+from swayless.errors import FileError, SwaylessError, ToolMissingError, VerificationError
 
 EXIT_DIFFERS, EXIT_BAD, EXIT_TOOL_MISSING = 1, 2, 3
+
+
+def help_text(command: Callable[..., None]) -> str:
+    r"""Give the help of a command: its docstring, in which typer must not fill the lines of the examples.
+
+    Examples
+    --------
+    >>> help_text(build).splitlines()[-4:]
+    ['\x08', 'Examples:', '  swayless build crane.toml', '  swayless build crane.toml -o out/crane --check']
+    """
+    text, _, examples = (inspect.getdoc(command) or "").partition("\n\nExamples\n--------\n")
+    return "\n".join([text, "", "\b", "Examples:", *(f"  {line}" for line in examples.splitlines())])
+
 
 app = typer.Typer(
     name="swayless",
@@ -27,18 +43,18 @@ app = typer.Typer(
 )
 
 
-@app.callback(invoke_without_command=True)
 def _swayless(
     context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
 ) -> None:
     """From a crane's rope lengths to proven controller code.
 
-    Start with:  swayless init crane.toml --example srtc-gantry
-
-    then:  swayless build crane.toml
-
     Exit codes: 0 ok, 1 differs or verification failed, 2 bad usage or bad file, 3 a tool is missing.
+
+    Examples
+    --------
+    swayless init crane.toml
+    swayless build crane.toml
     """
     if version:
         typer.echo(f"swayless {__version__}")
@@ -46,8 +62,9 @@ def _swayless(
         typer.echo(context.get_help())
 
 
+app.callback(invoke_without_command=True, help=help_text(_swayless))(_swayless)
 for _command in (init, design, plot, generate, verify, build):
-    app.command()(_command)
+    app.command(help=help_text(_command))(_command)
 
 
 def main() -> None:
@@ -55,7 +72,9 @@ def main() -> None:
     try:
         app()
     except SwaylessError as error:
-        typer.echo(f"error: {error}", err=True)
+        problems = error.problems if isinstance(error, FileError | OptionError) else (str(error),)
+        for problem in problems:
+            typer.echo(f"error: {problem}", err=True)
         sys.exit(_exit_code(error))
 
 

@@ -2,81 +2,119 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
 from swayless.cli.options import CheckOption, CompilerOption, JsonOption, SoakOption
 
 if TYPE_CHECKING:
-    from swayless.codegen import GeneratedFile
+    from matplotlib.figure import Figure
+
+    from swayless.cli.verify import CodeFiles
     from swayless.controller import ShaperSettings
     from swayless.machine import DesignFile, Machine
+    from swayless.verify import Verdict
 
-FIGURE_PRESS_S = 6.0
-"""Press of the response figures; cranes are often judged by six seconds at full speed."""
+MachineArgument = Annotated[
+    Path, typer.Argument(metavar="MACHINE.toml", help="A machine file.", show_default=False)
+]
+DirectoryOption = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="DIR",
+        help="Directory; it belongs to the generator. The file's name without .toml unless given.",
+    ),
+]
+NoVerifyOption = Annotated[bool, typer.Option("--no-verify", help="Do not compile and compare; say so.")]
+
+
+class Product(NamedTuple):
+    """What a build makes, all of it in memory: the design, its block, its code, and how to draw its figures.
+
+    `origin` says how the design stands to the stored one, `missing` why a language is left out. Files are the
+    design and the code; both they and the figures go by their path in the output directory.
+    """
+
+    design: DesignFile
+    origin: str
+    settings: ShaperSettings
+    code: CodeFiles
+    missing: dict[str, str]
+    files: dict[str, bytes]
+    figures: dict[str, Callable[[], Figure]]
+
+    @property
+    def paths(self) -> list[str]:
+        """Paths of everything that is written."""
+        return [*self.files, *self.figures]
 
 
 def build(
-    machine: Annotated[Path, typer.Argument(metavar="MACHINE.toml", help="A machine file.", show_default=False)],
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="DIR",
-            help="Directory; it belongs to the generator. The file's name without .toml unless given.",
-            show_default=False,
-        ),
-    ] = None,
+    machine: MachineArgument,
+    output: DirectoryOption = None,
     check: CheckOption = False,
-    no_verify: Annotated[bool, typer.Option("--no-verify", help="Do not compile and compare; say so.")] = False,
+    no_verify: NoVerifyOption = False,
     compiler: CompilerOption = None,
     soak_ticks: SoakOption = 1_000_000,
     json: JsonOption = False,
 ) -> None:
-    """Design every row of a machine, draw it, generate C and Structured Text, and prove them.
+    """Design a machine, draw it, generate its code and prove it.
 
-    Writes NAME.design.json, c/, st/ and figures/ into the output directory, but nothing before the proof has
-    passed. With --check nothing is written: figures apart, every file is compared with what would be.
+    Writes NAME.design.json, c/, st/ and figures/ into the output directory: all of them, once the proof has
+    passed, or nothing. A stored design that agrees with the fresh one to 1e-9 is kept, so that its code stays
+    the same. With --check nothing is written or proved: figures apart, every file is compared with what would
+    be written.
 
-    Example:  swayless build examples/srtc-gantry.toml -o out/srtc-gantry
+    Examples
+    --------
+    swayless build crane.toml
+    swayless build crane.toml -o out/crane --check
     """
-    from swayless.cli.console import progress
-    from swayless.cli.output_directory import write_files
-    from swayless.machine import load_machine, save_text
-    from swayless.machine.running import shaper_settings
+    from swayless.cli.console import failure_in_json, progress
+    from swayless.cli.output_directory import check_directory, write_files
+    from swayless.cli.verify import all_equal
+    from swayless.machine import load_machine
 
     described = load_machine(machine)
     directory = output or Path(machine.stem)
-    with progress() as show:
-        design = _design(described, directory, show)
-        settings = shaper_settings(design)
-        code = _code(design, settings)
-        texts = {f"{design.name}.design.json": save_text(design).encode("ascii")}
-        for target, made in code.items():
-            texts |= {f"{target}/{file.path}": file.text.encode("ascii") for file in made}
+    with progress() as show, failure_in_json(wanted=json):
+        product = _product(described, directory, show)
         if check:
-            _check(directory, texts, design, json=json)
+            _check(directory, product, json=json)
             return
-        verdicts = []
-        if not no_verify:
-            from swayless.cli.verify import verdicts_of
-
-            verdicts = verdicts_of(design, code, number=None, compiler=compiler, soak_ticks=soak_ticks, show=show)
-        differs = [verdict for verdict in verdicts if not verdict.comparison.is_equal]
-        if not differs:
+        check_directory(directory, product.paths)
+        verdicts = [] if no_verify else _proof(product, compiler, soak_ticks, show)
+        if all_equal(verdicts):
             show("drawing figures")
-            write_files(directory, texts | _figures(design))
-    _report(described, design, settings, directory, verdicts, json=json)
-    if differs:
+            write_files(directory, product.files | _drawn(product.figures))
+    _report(product, directory, verdicts, json=json)
+    if not all_equal(verdicts):
         raise typer.Exit(1)
 
 
-def _design(machine: Machine, directory: Path, show: Callable[[str], None]) -> DesignFile:
+def _product(machine: Machine, directory: Path, show: Callable[[str], None]) -> Product:
+    from swayless.cli.verify import generated
+    from swayless.machine import save_text
+    from swayless.machine.running import shaper_settings
+
+    design, origin = _design(machine, directory, show)
+    settings = shaper_settings(design)
+    code, missing = generated(design, settings)
+    files = {f"{design.name}.design.json": save_text(design).encode("ascii")}
+    for target, made in code.items():
+        files |= {f"{target}/{file.path}": file.text.encode("ascii") for file in made}
+    return Product(design, origin, settings, code, missing, files, _figures(design))
+
+
+def _design(machine: Machine, directory: Path, show: Callable[[str], None]) -> tuple[DesignFile, str]:
     """Design the machine; keep the stored numbers where they agree, so that code does not churn."""
+    from swayless.cli.console import counted
     from swayless.errors import FileError
     from swayless.machine import load_design, same_design
     from swayless.machine.designing import design_machine
@@ -84,99 +122,85 @@ def _design(machine: Machine, directory: Path, show: Callable[[str], None]) -> D
     fresh = design_machine(machine, on_row=lambda name: show(f"designing {name}"))
     path = directory / f"{machine.name}.design.json"
     if not path.exists():
-        return fresh
+        return fresh, "new"
     try:
         stored = load_design(path)
-    except FileError:
-        return fresh  # a damaged design is replaced, and --check shows it
-    return fresh if same_design(stored, fresh) else stored
+    except FileError as error:
+        return fresh, f"replaces a stored one that is damaged: {error.problems[0]}"
+    changes = same_design(stored, fresh)
+    if not changes:
+        return stored, "kept as stored"
+    return fresh, f"replaces the stored one, {counted(len(changes), 'difference')}, the first: {changes[0]}"
 
 
-def _code(design: DesignFile, settings: ShaperSettings) -> dict[str, tuple[GeneratedFile, ...]]:
-    from swayless.cli.generate import provenance
-    from swayless.codegen import TARGETS
-    from swayless.codegen import generate as generate_files
+def _figures(design: DesignFile) -> dict[str, Callable[[], Figure]]:
+    from swayless.cli.plot import FIGURE_PRESS_S, bank, response, sensitivity
 
-    origin, number = provenance(design), settings.number.name
-    return {
-        name: generate_files(settings, origin, name)
-        for name, target in TARGETS.items()
-        if number in target.number_types
-    }
-
-
-def figure_names(design: DesignFile) -> list[str]:
-    """Paths of the figures of a design."""
-    names = ["figures/sensitivity.svg"]
+    figures: dict[str, Callable[[], Figure]] = {"figures/sensitivity.svg": partial(sensitivity, design)}
     if design.plant.frequency_hz[0] < design.plant.frequency_hz[1]:
-        names.append("figures/bank.svg")
-    return names + [f"figures/response-{row}.svg" for row in range(1, len(design.shapers) + 1)]
+        figures["figures/bank.svg"] = partial(bank, design)
+    for row in range(1, len(design.shapers) + 1):
+        figures[f"figures/response-{row}.svg"] = partial(response, design, row, FIGURE_PRESS_S)
+    return figures
 
 
-def _figures(design: DesignFile) -> dict[str, bytes]:
-    from swayless.cli.plot import bank, plotted, response
-    from swayless.report import figure_bytes, sensitivity_figure
+def _drawn(figures: dict[str, Callable[[], Figure]]) -> dict[str, bytes]:
+    from swayless.report import figure_bytes
 
-    files = {}
-    for path in figure_names(design):
-        if path.endswith("sensitivity.svg"):
-            over: Any = "rope_length" if design.plant.kind == "crane" else "frequency"
-            figure = sensitivity_figure(plotted(design), over=over)
-        elif path.endswith("bank.svg"):
-            figure = bank(design)
-        else:
-            figure = response(design, int(path.rsplit("-", 1)[1].removesuffix(".svg")), FIGURE_PRESS_S)
-        files[path] = figure_bytes(figure, "svg")
-    return files
+    return {path: figure_bytes(draw(), "svg") for path, draw in figures.items()}
 
 
-def _check(directory: Path, texts: dict[str, bytes], design: DesignFile, *, json: bool) -> None:
-    from swayless.cli.console import print_json
-    from swayless.cli.output_directory import differences, unknown_files
+def _proof(
+    product: Product, compiler: str | None, soak_ticks: int, show: Callable[[str], None]
+) -> list[Verdict]:
+    from swayless.cli.verify import verdicts_of
+    from swayless.errors import ToolMissingError
 
-    figures = figure_names(design)
-    expected = texts | dict.fromkeys(figures, b"")
-    found = [text for text in differences(directory, texts) if not text.endswith("does not make it")]
-    found += [f"{path}: too much, the generator does not make it" for path in unknown_files(directory, expected)]
-    found += [f"{path}: missing" for path in figures if not (directory / path).is_file()]
+    try:
+        return verdicts_of(
+            product.design,
+            product.settings,
+            product.code,
+            compiler=compiler,
+            soak_ticks=soak_ticks,
+            show=show,
+        )
+    except ToolMissingError as error:
+        raise ToolMissingError(f"{error}; --no-verify builds without the proof") from error
+
+
+def _check(directory: Path, product: Product, *, json: bool) -> None:
+    from swayless.cli.console import counted, print_json
+    from swayless.cli.output_directory import differences
+
+    found = differences(directory, product.files, present=product.figures)
     if json:
-        print_json({"directory": str(directory), "files": [*texts, *figures], "differences": found})
+        document = {"directory": str(directory), "checked": True, "files": product.paths}
+        print_json(document | {"differences": found})
     else:
-        for line in found or [f"{directory}: {len(texts)} files as generated, {len(figures)} figures there"]:
+        files, figures = counted(len(product.files), "file"), counted(len(product.figures), "figure")
+        for line in found or [f"{directory}: {files} as generated, {figures} there"]:
             typer.echo(line)
     if found:
         raise typer.Exit(1)
 
 
-def _report(
-    machine: Machine,
-    design: DesignFile,
-    settings: ShaperSettings,
-    directory: Path,
-    verdicts: list[Any],
-    *,
-    json: bool,
-) -> None:
-    from swayless.cli.console import print_json, print_table
-    from swayless.cli.summary import gap_lines, stop_rows, summary_document
+def _report(product: Product, directory: Path, verdicts: Sequence[Verdict], *, json: bool) -> None:
+    from swayless.cli.console import counted, print_json
+    from swayless.cli.summary import print_summary, summary_document
+    from swayless.cli.verify import all_equal, verdict_document, verdict_lines
 
+    written = product.paths if all_equal(verdicts) else []
     if json:
-        print_json(summary_document(design, settings, directory, verdicts))
+        place = {"directory": str(directory), "files": written, "design": product.origin}
+        verdict = verdict_document(verdicts, product.missing)
+        print_json(summary_document(product.design, product.settings) | place | verdict)
         return
-    columns, rows = stop_rows(design, settings)
-    print_table(f"{design.name}: what each row guarantees, from {machine.source}", columns, rows)
-    for line in gap_lines(design):
+    print_summary(product.design, product.settings)
+    for line in verdict_lines(verdicts, product.missing):
         typer.echo(line)
-    if verdicts:
-        bad = [v for v in verdicts if not v.comparison.is_equal]
-        for verdict in bad:
-            typer.echo(f"DIFFERS: {verdict.code}, {verdict.stimulus}: {verdict.comparison.first_difference}")
-        codes = sorted({verdict.code for verdict in verdicts})
-        for code in codes:
-            ticks = sum(verdict.ticks for verdict in verdicts if verdict.code == code)
-            state = "DIFFERS" if any(v.code == code for v in bad) else "equal to the reference, bit for bit"
-            typer.echo(f"verified: {code}: {ticks} ticks, {state}")
-    else:
+    if not verdicts:
         typer.echo("verified: not run (--no-verify)")
-    if not any(not verdict.comparison.is_equal for verdict in verdicts):
-        typer.echo(f"{directory}: written")
+    if product.origin != "new":
+        typer.echo(f"design: {product.origin}")
+    typer.echo(f"{directory}: {counted(len(written), 'file') if written else 'nothing'} written")

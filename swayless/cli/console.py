@@ -6,11 +6,20 @@ Not for: what is printed.
 from __future__ import annotations
 
 import json
+import shutil
+import sys
+import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import Any
 
 import typer
+
+from swayless.errors import VerificationError
+
+PIPE_WIDTH = 10_000
+"""Columns of a table that does not go to a terminal: room for any line, so that none is folded."""
 
 
 def print_json(document: Any) -> None:
@@ -18,19 +27,36 @@ def print_json(document: Any) -> None:
     typer.echo(json.dumps(document, indent=2, allow_nan=False))
 
 
-def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], note: str = "") -> None:
+@contextmanager
+def failure_in_json(*, wanted: bool) -> Iterator[None]:
+    """Where JSON is wanted, say in JSON that code could not even be compiled or run, and exit 1."""
+    try:
+        yield
+    except VerificationError as error:
+        if not wanted:
+            raise
+        print_json({"verified": "failed", "reason": str(error)})
+        raise typer.Exit(1) from error
+
+
+def print_line(text: str) -> None:
+    """Print one remark; on a terminal it breaks between words."""
+    if sys.stdout.isatty():
+        text = textwrap.fill(text, shutil.get_terminal_size().columns, break_long_words=False)
+    typer.echo(text)
+
+
+def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print a table that fits the terminal; to a pipe it is never cut.
 
     Parameters
     ----------
     title : str
-        Above the table.
+        Line above the table.
     columns : sequence of str
         Heads, with units.
     rows : sequence of sequences of str
         One for each line.
-    note : str
-        Below the table.
     """
     from rich import box
     from rich.console import Console
@@ -38,13 +64,52 @@ def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]
 
     console = Console(highlight=False, emoji=False, markup=False)
     if not console.is_terminal:
-        console = Console(highlight=False, emoji=False, markup=False, width=160)
-    table = Table(title=title, title_justify="left", box=box.SIMPLE, caption=note or None, caption_justify="left")
+        console = Console(highlight=False, emoji=False, markup=False, width=PIPE_WIDTH)
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 2, 0, 0), pad_edge=False, show_edge=False)
     for column in columns:
         table.add_column(column, overflow="fold")
     for row in rows:
         table.add_row(*row)
-    console.print(table)
+    with console.capture() as capture:
+        console.print(table)
+    typer.echo(f"{title}\n")
+    for line in capture.get().splitlines():
+        typer.echo(f"  {line.rstrip()}")
+    typer.echo()
+
+
+def interval(low: float, high: float, digits: int = 4) -> str:
+    """Print a guaranteed range, rounded inward: what is printed is never more than what is held.
+
+    Examples
+    --------
+    >>> interval(6.93084, 7.74039)
+    '6.931 to 7.740'
+    """
+    down, up = Context(digits, ROUND_FLOOR), Context(digits, ROUND_CEILING)
+    return f"{up.create_decimal(repr(low))} to {down.create_decimal(repr(high))}"
+
+
+def per_cent(ratio: float) -> str:
+    """Print a ratio in per cent.
+
+    Examples
+    --------
+    >>> per_cent(0.05)
+    '5 %'
+    """
+    return f"{100 * ratio:.6g} %"
+
+
+def counted(number: int, noun: str) -> str:
+    """Print a number with its noun.
+
+    Examples
+    --------
+    >>> counted(1, "file"), counted(1_110_649, "tick")
+    ('1 file', '1,110,649 ticks')
+    """
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"
 
 
 @contextmanager
@@ -58,7 +123,7 @@ def progress() -> Iterator[Callable[[str], None]]:
     """
     from rich.console import Console
 
-    console = Console(stderr=True, highlight=False)
+    console = Console(stderr=True, highlight=False, emoji=False, markup=False)
     if not console.is_terminal:
         yield lambda _: None
         return

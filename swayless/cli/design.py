@@ -7,151 +7,168 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from swayless.cli.options import JsonOption, Number, quantity
+from swayless.cli.options import JsonOption, Number
 
 if TYPE_CHECKING:
-    from swayless.machine import DesignFile, ShaperRecord
-    from swayless.plant import Mode
+    from swayless.cli.option_table import OptionTable
+    from swayless.machine import DesignFile
+
+_MODE_OPTIONS = ("frequency", "period", "rope_length")
+
+FamilyArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="FAMILY",
+        help="zv zvd zvdd zvddd zvm ei ei2 ei3 mzv; with negative amplitudes um-zv um-zvd um-ei oatf.",
+        show_default=False,
+    ),
+]
+FrequencyOption = Annotated[
+    str | None, typer.Option(metavar="HZ", help="Undamped natural frequency, such as 4.5 or '270 rpm'.")
+]
+PeriodOption = Annotated[
+    str | None, typer.Option(metavar="S", help="Period as measured (damped), such as 5.4 or '220 ms'.")
+]
+RopeOption = Annotated[str | None, typer.Option(metavar="M", help="Rope length, such as 7.3 or '24 ft'.")]
+DampingOption = Annotated[str, typer.Option(metavar="Z", help="Damping ratio, such as 0.02 or '2 %'.")]
+ToleranceOption = Annotated[
+    str, typer.Option(metavar="V", help="Residual vibration allowed, as a part of the unshaped one.")
+]
+OrderOption = Annotated[str | None, typer.Option(metavar="N", help="For zvm: how many derivatives vanish.")]
+DelayOption = Annotated[str | None, typer.Option(metavar="S", help="For oatf: spacing of the impulses.")]
+TickOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="S", help="Tick of the controller, such as '10 ms': solve on its grid, for generated code."
+    ),
+]
+SpeedOption = Annotated[
+    str, typer.Option(metavar="V", help="Largest command of generated code, such as '40 m/min'.")
+]
+AccelerationOption = Annotated[
+    str | None, typer.Option(metavar="A", help="Ramp before the shaper, in m/s2; no ramp unless given.")
+]
+TypeOption = Annotated[Number, typer.Option(help="Number type of generated code.")]
+CountsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--counts-per-m-s",
+        metavar="N",
+        help="Commands are in counts, and N of them are 1 m/s; needed for int32.",
+    ),
+]
+NameOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="Prefix of generated symbols; the family unless given.")
+]
+OutputOption = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FILE.json", help="Design file to write.")
+]
 
 
 def design(
-    family: Annotated[
-        str,
-        typer.Argument(
-            metavar="FAMILY",
-            help="zv zvd zvdd zvddd zvm ei ei2 ei3 mzv um-zv um-zvd um-ei oatf",
-            show_default=False,
-        ),
-    ],
-    frequency: Annotated[
-        float | None,
-        typer.Option(parser=quantity("frequency"), metavar="HZ", help="Undamped natural frequency.", show_default=False),
-    ] = None,
-    period: Annotated[
-        float | None,
-        typer.Option(parser=quantity("time"), metavar="S", help="Measured (damped) period.", show_default=False),
-    ] = None,
-    rope_length: Annotated[
-        float | None,
-        typer.Option(parser=quantity("length"), metavar="M", help="Rope length, such as 7.3 or '24 ft'.", show_default=False),
-    ] = None,
-    damping: Annotated[float, typer.Option(parser=quantity("ratio"), metavar="Z", help="Damping ratio.")] = "0",  # type: ignore[assignment]
-    tolerance: Annotated[
-        float,
-        typer.Option(parser=quantity("ratio"), metavar="V", help="Residual vibration allowed, such as 0.05 or '5 %'."),
-    ] = "5 %",  # type: ignore[assignment]
-    order: Annotated[int | None, typer.Option(min=0, help="Order of zvm.", show_default=False)] = None,
-    delay: Annotated[
-        float | None,
-        typer.Option(parser=quantity("time"), metavar="S", help="Delay of oatf.", show_default=False),
-    ] = None,
-    tick: Annotated[
-        float | None,
-        typer.Option(
-            parser=quantity("time"),
-            metavar="S",
-            help="Tick of the controller: solve on its grid, so that code can be generated.",
-            show_default=False,
-        ),
-    ] = None,
-    max_speed: Annotated[
-        float, typer.Option(parser=quantity("speed"), metavar="V", help="Largest command, for generated code.")
-    ] = "1 m/s",  # type: ignore[assignment]
-    acceleration: Annotated[
-        float | None,
-        typer.Option(
-            parser=quantity("acceleration"), metavar="A", help="Ramp before the shaper; none unless given.", show_default=False
-        ),
-    ] = None,
-    number: Annotated[Number, typer.Option("--number", help="Number type of generated code.")] = Number.double,
-    counts_per_m_s: Annotated[
-        float | None,
-        typer.Option("--counts-per-m-s", metavar="N", help="Counts of 1 m/s, for int32.", show_default=False),
-    ] = None,
-    name: Annotated[
-        str | None,
-        typer.Option("--name", help="Prefix of generated symbols; the family unless given.", show_default=False),
-    ] = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE.json", help="Design file to write.", show_default=False)
-    ] = None,
+    family: FamilyArgument,
+    frequency: FrequencyOption = None,
+    period: PeriodOption = None,
+    rope_length: RopeOption = None,
+    damping: DampingOption = "0",
+    tolerance: ToleranceOption = "5 %",
+    order: OrderOption = None,
+    delay: DelayOption = None,
+    tick: TickOption = None,
+    max_speed: SpeedOption = "1 m/s",
+    acceleration: AccelerationOption = None,
+    number: TypeOption = Number.double,
+    counts_per_m_s: CountsOption = None,
+    name: NameOption = None,
+    output: OutputOption = None,
     json: JsonOption = False,
 ) -> None:
     """Design one shaper and say what it guarantees.
 
-    Give the mode by exactly one of --frequency, --period and --rope-length. Values are in SI, or carry a unit.
+    Give the mode by exactly one of --frequency, --period and --rope-length. Values are numbers in SI, or
+    numbers with a unit. With --tick the design holds taps, and `generate` and `verify` can use it.
 
-    Examples:
-
-      swayless design ei --rope-length "24 ft" --tick "10 ms" -o ei.json
-
-      swayless design zvd --frequency 4.5 --damping 0.02
-
-      swayless design um-zv --period 5.4 --tolerance "5 %" --json
+    Examples
+    --------
+    swayless design ei --rope-length "24 ft" --tick "10 ms" -o ei.json
+    swayless design zvd --frequency 4.5 --damping 0.02
+    swayless design um-zv --period 5.4 --tolerance "5 %" --json
     """
-    from swayless.cli.console import print_json
+    from swayless.cli.design_summary import print_design
     from swayless.machine import save_text, write_text_atomically
-    from swayless.machine.designing import design_mode
-    from swayless.machine.drive_section import DriveSection
-    from swayless.machine.row_section import RowSection
 
-    mode = _mode(frequency, period, rope_length, damping)
-    row = RowSection(family, family, mode, rope_length, tolerance, order, delay)
-    drive = DriveSection(
-        "m/s", counts_per_m_s, max_speed, acceleration, acceleration, acceleration, 0.0, 0.0, 0.0
-    )
-    made = design_mode(row, drive=drive, name=name or family.replace("-", "_"), tick_s=tick, number=number.value)
+    row = {"family": family, "damping_ratio": damping, "tolerance": tolerance, "order": order, "delay": delay}
+    mode = {"frequency": frequency, "period": period, "rope_length": rope_length}
+    rest = {"tick": tick, "max_speed": max_speed, "acceleration": acceleration}
+    made = _made(row | mode | rest, counts_per_m_s, name or family.replace("-", "_"), number.value)
     text = save_text(made)
     if output is not None:
         write_text_atomically(output, text)
     if json:
-        import json as json_module
-
-        print_json(json_module.loads(text))
+        typer.echo(text, nl=False)
         return
-    _print(made)
+    print_design(made)
     if output is not None:
         typer.echo(f"{output}: written")
 
 
-def _mode(
-    frequency_hz: float | None, period_s: float | None, rope_length_m: float | None, damping_ratio: float
-) -> Mode:
-    from swayless.plant import Mode, pendulum_mode
+def _made(given: dict[str, str | None], counts_per_m_s: str | None, name: str, number: str) -> DesignFile:
+    """Check every option with the checks of the machine file, then design."""
+    from swayless.cli.option_table import option_table, refuse
+    from swayless.machine.checks import machine_name
+    from swayless.machine.controller_section import TICK, check_counts
+    from swayless.machine.designing import design_mode
+    from swayless.machine.drive_section import read_drive
+    from swayless.machine.row_section import read_row
 
-    if sum(value is not None for value in (frequency_hz, period_s, rope_length_m)) != 1:
-        raise typer.BadParameter("give the mode by exactly one of --frequency, --period and --rope-length")
-    if frequency_hz is not None:
-        return Mode(frequency_hz, damping_ratio)
-    if period_s is not None:
-        return Mode.from_damped_period(period_s, damping_ratio)
-    assert rope_length_m is not None  # noqa: S101 - exactly one is given
-    return pendulum_mode(rope_length_m, damping_ratio)
-
-
-def _print(design: DesignFile) -> None:
-    from swayless.cli.console import print_table
-
-    shaper = design.shapers[0]
-    mode = f"{shaper.mode.frequency_hz:.6g} Hz, damping ratio {shaper.mode.damping_ratio:g}"
-    impulses = [
-        (f"{time:.9g}", f"{amplitude:.9g}") for time, amplitude in zip(shaper.times_s, shaper.amplitudes, strict=True)
-    ]
-    print_table(f"{shaper.family} for {mode}", ("time [s]", "amplitude"), impulses, _summary(shaper))
-    if shaper.taps is not None:
-        taps = [
-            (f"{delay}", f"{amplitude:.12g}")
-            for delay, amplitude in zip(shaper.taps.delays_ticks, shaper.taps.amplitudes, strict=True)
-        ]
-        print_table(f"on ticks of {design.tick_s:g} s", ("delay [ticks]", "amplitude"), taps, _summary(shaper, on_grid=True))
+    problems: list[str] = []
+    table = option_table(given, problems)
+    counts = option_table({"counts_per_m_s": counts_per_m_s}, problems)
+    row = read_row("crane", _row_options(table), damping_ratio=0.0)
+    tick_s = table.take("tick", TICK, None)
+    drive = read_drive("crane", table, counts)
+    if drive is not None and number == "int32":
+        check_counts(counts, drive)
+    machine_name(name, table.place("name"))
+    refuse(problems)
+    assert row is not None  # noqa: S101 - where something is missing there is a problem
+    assert drive is not None  # noqa: S101 - as above
+    return design_mode(row, drive=drive, name=name, tick_s=tick_s, number=number)
 
 
-def _summary(shaper: ShaperRecord, *, on_grid: bool = False) -> str:
-    part = shaper.taps if on_grid and shaper.taps is not None else shaper
-    held = part.guarantee
-    (low_hz, high_hz), (low_m, high_m) = held.frequency_hz, held.rope_length_m
-    return (
-        f"holds {100 * held.tolerance:g} % from {low_hz:.6g} to {high_hz:.6g} Hz (rope {low_m:.4g} to {high_m:.4g} m)\n"
-        f"duration {part.duration_s:.6g} s, overtravel {part.overtravel_s:.6g} m per m/s, "
-        f"peak factor {sum(map(abs, part.amplitudes)):.6g}"
+def _row_options(table: OptionTable) -> OptionTable:
+    """Options as a row of a machine file has them: a name, and a frequency in the place of a period."""
+    from dataclasses import replace
+
+    from swayless.design import FAMILIES
+
+    family = table.raw["family"]
+    raw = {key: value for key, value in table.raw.items() if key not in _MODE_OPTIONS}
+    raw["name"] = family if family in FAMILIES else "unknown"
+    given = [key for key in _MODE_OPTIONS if key in table.raw]
+    if len(given) != 1:
+        found = f"{' and '.join(table.place(key).path for key in given)} are" if given else "none is"
+        options = ", ".join(table.place(key).path for key in _MODE_OPTIONS)
+        table.report.problems.append(f"{options}: exactly one of them is needed, {found} given")
+        raw["frequency"] = 1.0  # so that the other options are checked too
+    elif given == ["period"]:
+        raw["frequency"] = _frequency_of_period(table)
+    else:
+        raw[given[0]] = table.raw[given[0]]
+    return replace(table, raw=raw)
+
+
+def _frequency_of_period(table: OptionTable) -> float:
+    """Undamped frequency, in Hz, of a damped period; 1 where an option is wrong, and so reported."""
+    from swayless.cli.option_table import option_table
+    from swayless.machine.checks import quantity
+    from swayless.machine.plant_section import DAMPING
+    from swayless.plant import Mode
+
+    period_s = table.take("period", quantity("time", 1e-4, 1e3), None)
+    damping_ratio = option_table({"damping_ratio": str(table.raw["damping_ratio"])}, []).take(
+        "damping_ratio", DAMPING, None
     )
+    if period_s is None or damping_ratio is None:
+        return 1.0
+    return Mode.from_damped_period(period_s, damping_ratio).frequency_hz

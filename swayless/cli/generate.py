@@ -12,6 +12,7 @@ from swayless.cli.options import CheckOption, DesignArgument, JsonOption, Number
 
 if TYPE_CHECKING:
     from swayless.codegen import Provenance
+    from swayless.controller import ShaperSettings
     from swayless.machine import DesignFile
 
 
@@ -22,8 +23,12 @@ class TargetName(StrEnum):
     st = "st"
 
 
+LANGUAGES = {TargetName.c.value: "C", TargetName.st.value: "Structured Text"}
+"""What people call each target."""
+
+
 def generate(
-    target: Annotated[TargetName, typer.Argument(help="Language.", show_default=False)],
+    target: Annotated[TargetName, typer.Argument(metavar="LANGUAGE", help="c or st.", show_default=False)],
     file: DesignArgument,
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Directory; it belongs to the generator.")
@@ -34,9 +39,14 @@ def generate(
 ) -> None:
     """Generate C or Structured Text from a design file.
 
-    The same design file gives the same bytes, on every machine and for ever.
+    The same design file gives the same bytes, on every machine and for ever. Structured Text is generated in
+    LREAL (double) or REAL (float), C in int32 too.
 
-    Example:  swayless generate c crane.design.json -o src/crane --number float
+    Examples
+    --------
+    swayless generate st crane.json -o st
+    swayless generate c crane.json -o src/crane --number float
+    swayless generate c crane.json -o src/crane --number float --check
     """
     from swayless.cli.console import print_json
     from swayless.cli.output_directory import differences, write_files
@@ -52,7 +62,7 @@ def generate(
     if not check:
         write_files(output, files)
     if json:
-        print_json({"directory": str(output), "files": list(files), "checked": check, "differences": found})
+        print_json({"directory": str(output), "checked": check, "files": list(files), "differences": found})
     else:
         for line in found or [f"{output / path}: {'as generated' if check else 'written'}" for path in files]:
             typer.echo(line)
@@ -78,3 +88,22 @@ def provenance(design: DesignFile) -> Provenance:
         design_sha256=design_sha256(design),
         hangs_on_rope=design.plant.kind == "crane",
     )
+
+
+def left_out(settings: ShaperSettings) -> dict[str, str]:
+    """Say which languages cannot be generated, and why: reasons by target.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    """
+    from swayless.codegen import TARGETS
+
+    number = settings.number.name
+    able = ", ".join(LANGUAGES[name] for name, target in TARGETS.items() if number in target.number_types)
+    return {
+        name: f"not generated, {number} is for {able} only"
+        for name, target in TARGETS.items()
+        if number not in target.number_types
+    }

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from swayless.cli.options import JsonOption
+
 
 class Example(StrEnum):
     """The machine files that ship with swayless."""
@@ -20,15 +22,25 @@ class Example(StrEnum):
 def init(
     file: Annotated[
         Path | None,
-        typer.Argument(metavar="[FILE]", help="File to write; NAME.toml here unless given.", show_default=False),
+        typer.Argument(metavar="FILE", help="File to write; EXAMPLE.toml unless given.", show_default=False),
     ] = None,
-    example: Annotated[Example, typer.Option("--example", help="Which machine to start from.")] = Example.srtc_gantry,
+    example: Annotated[
+        Example, typer.Option("--example", help="Which machine to start from.")
+    ] = Example.srtc_gantry,
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """Write a commented machine file to start from.
 
-    Example:  swayless init crane.toml --example workshop-crane
+    The examples: a 15-ton gantry crane (double, for C and Structured Text), a workshop crane with a joystick
+    (float), and a flexible arm (int32, for C only).
+
+    Examples
+    --------
+    swayless init crane.toml
+    swayless init crane.toml --example workshop-crane
     """
+    from swayless.cli.console import print_json
     from swayless.errors import FileError
     from swayless.machine import example_text, write_text_atomically
 
@@ -36,4 +48,7 @@ def init(
     if path.exists() and not force:
         raise FileError([f"{path}: is there already; choose another name, or replace it with --force"])
     write_text_atomically(path, example_text(example.value))
-    typer.echo(f"{path}: written; edit it, then run: swayless build {path}")
+    if json:
+        print_json({"file": str(path), "example": example.value})
+    else:
+        typer.echo(f"{path}: written; edit it, then run: swayless build {path}")

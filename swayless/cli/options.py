@@ -1,16 +1,28 @@
-"""Options that several commands share, and how their values are read. Not for: what commands do."""
+"""Options that several commands share. Not for: what commands do."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-if TYPE_CHECKING:
-    from swayless.machine.quantity import Dimension
+from swayless.errors import SwaylessError
+
+
+class OptionError(SwaylessError, ValueError):
+    """Options are wrong. Holds every problem found, as `swayless.errors.FileError` does for files.
+
+    Parameters
+    ----------
+    problems : sequence of str
+        One line each: option, value and what is allowed.
+    """
+
+    def __init__(self, problems: list[str]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(self.problems))
 
 
 class Number(StrEnum):
@@ -29,35 +41,17 @@ class CompilerName(StrEnum):
     zig = "zig"
 
 
-def quantity(dimension: Dimension) -> Callable[[str], float]:
-    """Make a parser of option values: a number in SI, or a number with a unit.
-
-    Parameters
-    ----------
-    dimension : str
-        What the value must be, such as ``"length"``.
-    """
-
-    def parse(text: str | float) -> float:
-        from swayless.machine.quantity import QuantityError, parse_quantity
-
-        try:
-            return parse_quantity(text, dimension)
-        except QuantityError as error:
-            raise typer.BadParameter(str(error)) from error
-
-    parse.__name__ = dimension.upper()
-    return parse
-
-
-JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON document for machines, nothing else.")]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print one JSON document for machines, nothing else.")
+]
 
 CheckOption = Annotated[
     bool, typer.Option("--check", help="Write nothing: print a diff and exit 1 if any file would change.")
 ]
 
 NumberOption = Annotated[
-    Number | None, typer.Option("--number", help="Number type, instead of the design's own.", show_default=False)
+    Number | None,
+    typer.Option("--number", help="Number type, instead of the design's own.", show_default=False),
 ]
 
 CompilerOption = Annotated[
@@ -66,7 +60,14 @@ CompilerOption = Annotated[
 ]
 
 SoakOption = Annotated[
-    int, typer.Option("--soak-ticks", min=0, max=100_000_000, help="Ticks of the long random run of the C.")
+    int,
+    typer.Option(
+        "--soak-ticks",
+        metavar="N",
+        min=0,
+        max=100_000_000,
+        help="Ticks of the long random run of the C; 0 leaves it out.",
+    ),
 ]
 
 DesignArgument = Annotated[

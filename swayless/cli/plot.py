@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from swayless.cli.options import JsonOption, quantity
+from swayless.cli.options import JsonOption
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from swayless.design import Shaper
+    from swayless.design.grid_shaper import GridShaper
     from swayless.machine import DesignFile
     from swayless.report import PlottedShaper
+
+
+FIGURE_PRESS_S = 6.0
+"""Press of a response figure; cranes are often judged by six seconds at full speed."""
 
 
 class Kind(StrEnum):
@@ -39,66 +46,154 @@ class Definition(StrEnum):
     magee = "magee"
 
 
+KindArgument = Annotated[
+    Kind,
+    typer.Argument(
+        metavar="KIND",
+        help="sensitivity: what designs leave over frequency or rope length, and the range each one holds; "
+        "response: command, reference and swing of one press at full speed; bank: all rows of a machine.",
+        show_default=False,
+    ),
+]
+FilesArgument = Annotated[
+    list[Path],
+    typer.Argument(metavar="FILE.json", help="Design file; several for sensitivity.", show_default=False),
+]
+FigureOption = Annotated[
+    Path, typer.Option("-o", "--output", metavar="FIG", help="Figure to write: .svg, .png or .pdf.")
+]
+OverOption = Annotated[
+    Over | None, typer.Option("--over", help="sensitivity: the axis; frequency unless given.")
+]
+SpanOption = Annotated[
+    tuple[str, str] | None,
+    typer.Option(metavar="LOW HIGH", help="sensitivity: range of the axis, in Hz or m, or with units."),
+]
+DefinitionOption = Annotated[
+    Definition | None,
+    typer.Option(help="sensitivity: residual as in Kriikku eq 1 (unless given), or Magee eqs 24-25."),
+]
+PressOption = Annotated[
+    str | None, typer.Option(metavar="TIME", help="response: how long the button is held; 6 s unless given.")
+]
+RowOption = Annotated[
+    str | None, typer.Option(metavar="N", help="response: row of the design; 1 unless given.")
+]
+
+
 def plot(
-    kind: Annotated[Kind, typer.Argument(help="What to draw.", show_default=False)],
-    files: Annotated[list[Path], typer.Argument(metavar="FILE.json...", help="Design files.", show_default=False)],
-    output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="FIG", help="Figure to write: .svg, .png or .pdf.")
-    ],
-    over: Annotated[Over, typer.Option("--over", help="Axis of sensitivity.")] = Over.frequency,
-    span: Annotated[
-        tuple[str, str] | None,
-        typer.Option("--span", metavar="LOW HIGH", help="Range of the axis, with units if you like.", show_default=False),
-    ] = None,
-    definition: Annotated[
-        Definition,
-        typer.Option("--definition", help="Residual vibration as in Kriikku eq 1, or Magee eqs 24-25."),
-    ] = Definition.kriikku,
-    press: Annotated[
-        str, typer.Option("--press", metavar="TIME", help="How long the response's button is held.")
-    ] = "6 s",
-    row: Annotated[int, typer.Option("--row", min=1, help="Row of the file that the response shows.")] = 1,
+    kind: KindArgument,
+    files: FilesArgument,
+    output: FigureOption,
+    over: OverOption = None,
+    span: SpanOption = None,
+    definition: DefinitionOption = None,
+    press: PressOption = None,
+    row: RowOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Draw residual vibration over frequency or rope length, a response, or a whole bank.
+    """Draw sensitivity, a response, or a whole bank.
 
-    Examples:
+    Taps are drawn where a design has them, since they are what runs.
 
-      swayless plot sensitivity zv.json zvd.json ei.json -o compare.svg
-
-      swayless plot sensitivity crane.design.json --over rope-length --span "9 ft" "29 ft" -o rope.png
-
-      swayless plot response crane.design.json --press "4 s" -o response.pdf
+    Examples
+    --------
+    swayless plot sensitivity zv.json ei.json -o compare.svg
+    swayless plot sensitivity crane.json --over rope-length --span 3 9 -o rope.png
+    swayless plot response crane.json --press "4 s" --row 2 -o response.pdf
+    swayless plot bank crane.json -o bank.svg
     """
     from swayless.cli.console import print_json
-    from swayless.machine import load_design
-    from swayless.report import save_figure, sensitivity_figure
+    from swayless.report import save_figure
 
-    designs = [load_design(file) for file in files]
+    _refuse_strangers(
+        kind, {"over": over, "span": span, "definition": definition}, {"press": press, "row": row}
+    )
+    designs = _loaded(files)
     if kind is Kind.sensitivity:
-        shapers = [shaper for design in designs for shaper in plotted(design, prefix=len(designs) > 1)]
-        dimension = quantity("frequency" if over is Over.frequency else "length")
-        limits = None if span is None else (dimension(span[0]), dimension(span[1]))
-        axis = "frequency" if over is Over.frequency else "rope_length"
-        figure = sensitivity_figure(shapers, over=axis, span=limits, definition=definition.value)  # type: ignore[arg-type]
+        figure = _sensitivity(designs, over or Over.frequency, span, definition or Definition.kriikku)
     else:
-        figure = _single(kind, designs, row, quantity("time")(press))
+        figure = _single(kind, designs, row, press)
     save_figure(figure, output)
     if json:
-        print_json({"figure": str(output), "kind": kind.value})
+        print_json({"figure": str(output), "kind": kind.value, "designs": [str(file) for file in files]})
     else:
         typer.echo(f"{output}: written")
 
 
-def _single(kind: Kind, designs: list[DesignFile], row: int, press_s: float) -> Figure:
+def _refuse_strangers(kind: Kind, sensitivity: dict[str, Any], response: dict[str, Any]) -> None:
+    """Refuse options that belong to another kind of figure: they would change nothing."""
+    from swayless.cli.option_table import refuse
+
+    owners = {Kind.sensitivity: sensitivity, Kind.response: response}
+    refuse(
+        [
+            f"--{name}: belongs to plot {owner.value}, not to plot {kind.value}"
+            for owner, options in owners.items()
+            for name, value in options.items()
+            if owner is not kind and value is not None
+        ]
+    )
+
+
+def _loaded(files: list[Path]) -> list[DesignFile]:
+    """Load every file, or report the problems of all."""
+    from swayless.errors import FileError
+    from swayless.machine import load_design
+
+    designs: list[DesignFile] = []
+    problems: list[str] = []
+    for file in files:
+        try:
+            designs.append(load_design(file))
+        except FileError as error:
+            problems += error.problems
+    if problems:
+        raise FileError(problems)
+    return designs
+
+
+def _sensitivity(
+    designs: list[DesignFile], over: Over, span: tuple[str, str] | None, definition: Definition
+) -> Figure:
+    from swayless.cli.option_table import option_table, refuse
+    from swayless.machine.plant_section import FREQUENCY, LENGTH
+    from swayless.report import sensitivity_figure
+
+    problems: list[str] = [
+        f"--over rope-length: the design {design.name} is of an arm, which hangs on no rope"
+        for design in designs
+        if over is Over.rope_length and design.plant.kind == "arm"
+    ]
+    limits = None
+    if span is not None:
+        check = FREQUENCY if over is Over.frequency else LENGTH
+        low, high = (option_table({"span": end}, problems).take("span", check, None) for end in span)
+        if low is not None and high is not None and low >= high:
+            problems.append(f"--span {span[0]} {span[1]}: must be the lower end, then the higher one")
+        limits = (low or 0.0, high or 0.0)
+    refuse(problems)
+    shapers = [shaper for design in designs for shaper in plotted(design, prefix=len(designs) > 1)]
+    if over is Over.frequency:
+        return sensitivity_figure(shapers, over="frequency", span=limits, definition=definition.value)
+    return sensitivity_figure(shapers, over="rope_length", span=limits, definition=definition.value)
+
+
+def _single(kind: Kind, designs: list[DesignFile], row: str | None, press: str | None) -> Figure:
+    from swayless.cli.option_table import option_table, refuse
+    from swayless.machine.checks import integer, quantity
+
     if len(designs) != 1:
-        raise typer.BadParameter(f"plot {kind.value} takes one design file, got {len(designs)}")
+        refuse([f"FILE.json: plot {kind.value} draws one design, {len(designs)} are given"])
     design = designs[0]
     if kind is Kind.bank:
         return bank(design)
-    if row > len(design.shapers):
-        raise typer.BadParameter(f"--row {row}: the design has {len(design.shapers)} rows")
-    return response(design, row, press_s)
+    problems: list[str] = []
+    table = option_table({"row": row, "press": press}, problems)
+    position = table.take("row", integer(1, len(design.shapers)), 1)
+    press_s = table.take("press", quantity("time", 1e-3, 1e4), FIGURE_PRESS_S)
+    refuse(problems)
+    return response(design, position or 1, press_s or FIGURE_PRESS_S)
 
 
 def plotted(design: DesignFile, *, prefix: bool = False) -> list[PlottedShaper]:
@@ -114,12 +209,22 @@ def plotted(design: DesignFile, *, prefix: bool = False) -> list[PlottedShaper]:
     from swayless.machine.running import stored_shapers, stored_taps
     from swayless.report import PlottedShaper
 
-    impulses = stored_shapers(design) if design.tick_s is None else stored_taps(design)
+    impulses: Sequence[Shaper | GridShaper] = stored_taps(design)
+    if design.tick_s is None:
+        impulses = stored_shapers(design)
     labels = [f"{s.name} ({s.family})" if s.name != s.family else s.family for s in design.shapers]
     return [
         PlottedShaper(f"{design.name}: {label}" if prefix else label, item, item.guarantee, design.tick_s)
         for label, item in zip(labels, impulses, strict=True)
     ]
+
+
+def sensitivity(design: DesignFile) -> Figure:
+    """Draw what the rows of a design leave, on the axis of its machine."""
+    from swayless.report import sensitivity_figure
+
+    over: Literal["frequency", "rope_length"] = "rope_length" if design.plant.kind == "crane" else "frequency"
+    return sensitivity_figure(plotted(design), over=over)
 
 
 def bank(design: DesignFile) -> Figure:
@@ -129,7 +234,9 @@ def bank(design: DesignFile) -> Figure:
 
     plant = design.plant
     if plant.frequency_hz[0] >= plant.frequency_hz[1]:
-        raise DesignError("the design is for one frequency, and a bank figure needs a range: plot sensitivity instead")
+        raise DesignError(
+            "the design is for one frequency, and a bank figure needs a range: plot sensitivity instead"
+        )
     if plant.kind == "crane":
         from swayless.plant import pendulum_rope_length_m
 

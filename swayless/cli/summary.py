@@ -5,33 +5,37 @@ Not for: proving any of it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from swayless.cli.console import interval, per_cent, print_line, print_table
 
 if TYPE_CHECKING:
     from swayless.controller import ShaperSettings
-    from swayless.machine import DesignFile, TapsRecord
-    from swayless.verify import Verdict
+    from swayless.machine import DesignFile, ShaperRecord, TapsRecord
 
-METRES_OF_MM = 1e-3
+MM_PER_M = 1000.0
 """Stop distances of int32 blocks are in mm."""
 
+STOPS_NOTE = "stop: way from full speed to rest once the button is released; quick stop: the same, unshaped"
 
-def stop_distances_m(settings: ShaperSettings, row: int) -> tuple[float, float]:
-    """Stop distances from full speed in a row: released, and quick-stopped; emergency stops take the drive's own.
+
+class Stops(NamedTuple):
+    """Ways from full speed to rest, in m, counted from the tick in which a button is released or pressed."""
+
+    released_m: float
+    quick_m: float
+
+
+def stops(settings: ShaperSettings, row: int) -> Stops:
+    """Ask the block's own reference for its stop distances.
 
     Parameters
     ----------
     settings : ShaperSettings
-        The block; its own reference is asked.
+        The block.
     row : int
         Position of the selector.
-
-    Returns
-    -------
-    released_m, quick_m : float
-        Way from the tick after the release, or from the tick of the quick stop on, in m.
     """
     from swayless.controller import CommandShaper, ShaperInput
 
@@ -40,116 +44,113 @@ def stop_distances_m(settings: ShaperSettings, row: int) -> tuple[float, float]:
     full = ShaperInput(command=limits.max_command, selector=row)
     ramp_ticks = int(limits.max_command / limits.acceleration_step) + 2
     for _ in range(ramp_ticks + 2 * settings.longest_delay_ticks + 2):
-        released = shaper.step(full)
+        steady = shaper.step(full)
     quick = shaper.step(full._replace(quick_stop=True))
-    scale = METRES_OF_MM if settings.number.is_integer else 1.0
+    per_m = MM_PER_M if settings.number.is_integer else 1.0
+    # The distance counts from the next tick on; the tick of the quick stop itself is part of the way.
     first_m = float(quick.reference) / limits.units_per_m_s * settings.tick_s
-    return float(released.stop_distance) * scale, float(quick.stop_distance) * scale + first_m
+    return Stops(float(steady.stop_distance) / per_m, float(quick.stop_distance) / per_m + first_m)
 
 
-def stop_rows(design: DesignFile, settings: ShaperSettings) -> tuple[Sequence[str], list[Sequence[str]]]:
-    """Columns and lines of the closing table.
+def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
+    """Print the closing table and what there is to know beside it.
 
     Parameters
     ----------
     design : DesignFile
-        The design, with taps.
+        The design of a machine, with taps.
     settings : ShaperSettings
-        The block.
+        Its block.
     """
-    on_rope = design.plant.kind == "crane"
-    held = "holds at rope [m]" if on_rope else "holds at [Hz]"
-    columns = ("knob", "row", "family", "residual", held, "duration [s]", "stop, released [m]", "stop, quick [m]")
-    released_m, quick_m = stop_distances_m(settings, 0)
-    lines: list[Sequence[str]] = [("0", "unshaped", "-", "-", "-", "0", f"{released_m:.3f}", f"{quick_m:.3f}")]
-    for position, shaper in enumerate(design.shapers, start=1):
-        taps = _taps(design, position)
-        low, high = taps.guarantee.rope_length_m if on_rope else taps.guarantee.frequency_hz
-        released_m, quick_m = stop_distances_m(settings, position)
-        lines.append(
-            (
-                f"{position}",
-                shaper.name,
-                shaper.family,
-                f"<= {100 * taps.guarantee.tolerance:g} %",
-                f"{low:.4g} to {high:.4g}",
-                f"{taps.duration_s:.3g}",
-                f"{released_m:.3f}",
-                f"{quick_m:.3f}",
-            )
+    held = "holds at rope [m]" if _on_rope(design) else "holds at [Hz]"
+    columns = ("knob", "row", "family", "residual", held, "lasts [s]", "stop [m]", "quick stop [m]")
+    unshaped = stops(settings, 0)
+    rows = [["0", "unshaped", "-", "-", "-", "0", f"{unshaped.released_m:.3f}", f"{unshaped.quick_m:.3f}"]]
+    for knob, shaper in enumerate(design.shapers, start=1):
+        taps, way = _taps(shaper), stops(settings, knob)
+        row = [f"{knob}", shaper.name, shaper.family, f"<= {per_cent(taps.guarantee.tolerance)}"]
+        row += [interval(*_held(design, taps)), f"{taps.duration_s:.4g}"]
+        rows.append([*row, f"{way.released_m:.3f}", f"{way.quick_m:.3f}"])
+    print_table(f"{design.name}: what each position of the knob guarantees", columns, rows)
+    print_line(STOPS_NOTE)
+    for line in _remarks(design):
+        print_line(line)
+
+
+def _remarks(design: DesignFile) -> Iterator[str]:
+    waiting = [shaper.name for shaper in design.shapers if min(shaper.amplitudes) < 0.0]
+    if waiting:
+        names = ", ".join(waiting)
+        yield f"negative amplitudes in {names}: a new command waits until the last one has come to rest"
+    if design.plant.frequency_hz[0] < design.plant.frequency_hz[1]:
+        gaps = [f"{low:.4g} to {high:.4g}" for low, high in _gaps(design)]
+        unit = "m of rope" if _on_rope(design) else "Hz"
+        yield (
+            f"held by no row: {', '.join(gaps)} {unit}"
+            if gaps
+            else "every point of the range is held by at least one row"
         )
-    return columns, lines
 
 
-def gap_lines(design: DesignFile) -> list[str]:
-    """Say which part of the machine's range no row holds at its tolerance."""
-    plant = design.plant
-    if plant.frequency_hz[0] >= plant.frequency_hz[1]:
-        return []
-    gaps = _gaps(design)
-    unit = "m of rope" if plant.kind == "crane" else "Hz"
-    if not gaps:
-        return ["covered: every point of the range is held by at least one row"]
-    return [f"not covered at the tolerance: {low:.4g} to {high:.4g} {unit}" for low, high in gaps]
+def _on_rope(design: DesignFile) -> bool:
+    return design.plant.kind == "crane"
+
+
+def _held(design: DesignFile, taps: TapsRecord) -> tuple[float, float]:
+    return taps.guarantee.rope_length_m if _on_rope(design) else taps.guarantee.frequency_hz
 
 
 def _gaps(design: DesignFile) -> list[tuple[float, float]]:
+    """Parts of the machine's range that no row holds at its tolerance, in m of rope or in Hz."""
     from swayless.plant import pendulum_rope_length_m
     from swayless.report.ranges import uncovered
 
     plant = design.plant
-    guarantees = [_taps(design, position).guarantee for position in range(1, len(design.shapers) + 1)]
-    if plant.kind != "crane":
-        return uncovered([g.frequency_hz for g in guarantees], plant.frequency_hz)
-    low_hz, high_hz = plant.frequency_hz
-    whole = plant.rope_length_m or (pendulum_rope_length_m(high_hz), pendulum_rope_length_m(low_hz))
-    return uncovered([g.rope_length_m for g in guarantees], whole)
+    whole = plant.frequency_hz
+    if _on_rope(design):
+        low_hz, high_hz = plant.frequency_hz
+        whole = plant.rope_length_m or (pendulum_rope_length_m(high_hz), pendulum_rope_length_m(low_hz))
+    return uncovered([_held(design, _taps(shaper)) for shaper in design.shapers], whole)
 
 
-def _taps(design: DesignFile, position: int) -> TapsRecord:
-    taps = design.shapers[position - 1].taps
-    assert taps is not None  # noqa: S101 - a machine always has a tick
-    return taps
+def _taps(shaper: ShaperRecord) -> TapsRecord:
+    assert shaper.taps is not None  # noqa: S101 - a machine always has a tick
+    return shaper.taps
 
 
-def summary_document(
-    design: DesignFile, settings: ShaperSettings, directory: Path, verdicts: Sequence[Verdict]
-) -> dict[str, Any]:
+def summary_document(design: DesignFile, settings: ShaperSettings) -> dict[str, Any]:
     """Give the closing table for machines.
 
     Parameters
     ----------
     design : DesignFile
-        The design, with taps.
+        The design of a machine, with taps.
     settings : ShaperSettings
-        The block.
-    directory : Path
-        Where the files are.
-    verdicts : sequence of Verdict
-        What verification found; empty if it was not run.
+        Its block.
     """
-    rows = []
-    for position, shaper in enumerate(design.shapers, start=1):
-        taps = _taps(design, position)
-        released_m, quick_m = stop_distances_m(settings, position)
+    nothing = dict.fromkeys(("family", "tolerance", "frequency_hz", "rope_length_m"))
+    rows = [{"knob": 0, "name": "unshaped", **nothing, "duration_s": 0.0, **_stops_document(settings, 0)}]
+    for knob, shaper in enumerate(design.shapers, start=1):
+        taps = _taps(shaper)
         rows.append(
             {
-                "knob": position,
+                "knob": knob,
                 "name": shaper.name,
                 "family": shaper.family,
                 "tolerance": taps.guarantee.tolerance,
                 "frequency_hz": list(taps.guarantee.frequency_hz),
-                "rope_length_m": list(taps.guarantee.rope_length_m),
+                "rope_length_m": list(taps.guarantee.rope_length_m) if _on_rope(design) else None,
                 "duration_s": taps.duration_s,
-                "stop_distance_released_m": released_m,
-                "stop_distance_quick_m": quick_m,
+                **_stops_document(settings, knob),
             }
         )
-    return {
-        "name": design.name,
-        "directory": str(directory),
-        "rows": rows,
-        "not_covered": [list(gap) for gap in _gaps(design)] if design.plant.frequency_hz[0] < design.plant.frequency_hz[1] else [],
-        "verified": "not run" if not verdicts else all(v.comparison.is_equal for v in verdicts),
-        "runs": [{"code": v.code, "stimulus": v.stimulus, "ticks": v.ticks, "equal": v.comparison.is_equal} for v in verdicts],
+    ranged = design.plant.frequency_hz[0] < design.plant.frequency_hz[1]
+    not_held = {
+        "not_held_rope_length_m" if _on_rope(design) else "not_held_hz": _gaps(design) if ranged else []
     }
+    return {"name": design.name, "number": settings.number.name, "rows": rows, **not_held}
+
+
+def _stops_document(settings: ShaperSettings, row: int) -> dict[str, float]:
+    way = stops(settings, row)
+    return {"stop_distance_released_m": way.released_m, "stop_distance_quick_m": way.quick_m}

@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from swayless.cli.options import CompilerOption, JsonOption, NumberOption, SoakOption
+from swayless.cli.options import CompilerOption, JsonOption, NumberOption, OptionError, SoakOption
 
 if TYPE_CHECKING:
     from swayless.codegen import GeneratedFile
+    from swayless.controller import ShaperSettings
     from swayless.machine import DesignFile
     from swayless.verify import Verdict
+
+CodeFiles: TypeAlias = "dict[str, tuple[GeneratedFile, ...]]"
+"""Files by target."""
+
+SUFFIXES = frozenset({".c", ".h", ".st"})
+"""What counts as code in a directory that `build` wrote."""
 
 
 def verify(
     path: Annotated[
         Path,
         typer.Argument(
-            metavar="DIR|FILE.json", help="What `build` wrote, or a design file.", show_default=False
+            metavar="PATH", help="A directory that `build` wrote, or a design file.", show_default=False
         ),
     ],
     number: NumberOption = None,
@@ -28,47 +35,76 @@ def verify(
     soak_ticks: SoakOption = 1_000_000,
     json: JsonOption = False,
 ) -> None:
-    """Run generated code and its reference on the same inputs and compare every output bit for bit.
+    """Prove that generated code does what its reference does.
 
-    A directory is verified as it stands, hand-made changes included; for a design file the code is generated
-    first. Exits 1 if anything differs, 3 if a compiler or the parser is missing.
+    Runs both on the same inputs and compares every output bit for bit. A directory is verified as it stands,
+    changes by hand included; for a design file the code is generated first. Exits 1 if anything differs, 3 if
+    a compiler or the parser of Structured Text is missing.
 
-    Example:  swayless verify out/srtc-gantry
+    Examples
+    --------
+    swayless verify out/srtc-gantry
+    swayless verify crane.json --number float --compiler zig
     """
-    from swayless.cli.console import progress
-    from swayless.codegen import TARGETS
-    from swayless.codegen import generate as generate_files
+    from swayless.cli.console import failure_in_json, print_json, print_table, progress
+    from swayless.cli.generate import left_out
     from swayless.machine import load_design
     from swayless.machine.running import shaper_settings
 
-    from swayless.cli.generate import provenance
-
     if path.is_dir():
         if number is not None:
-            raise typer.BadParameter("files in a directory have their number type; give a design file instead")
+            raise OptionError(["--number: files in a directory have their number type; give a design file"])
         design, files = _stored(path)
+        settings = shaper_settings(design)
+        missing = {name: f"not verified, there is none in {path / name}" for name in files if not files[name]}
+        missing |= left_out(settings)
     else:
         design = load_design(path)
         settings = shaper_settings(design, number=number and number.value)
-        known = [name for name, target in TARGETS.items() if settings.number.name in target.number_types]
-        files = {name: generate_files(settings, provenance(design), name) for name in known}
-    with progress() as show:
-        verdicts = verdicts_of(
-            design, files, number=number and number.value, compiler=compiler, soak_ticks=soak_ticks, show=show
-        )
-    print_verdicts(verdicts, json=json)
-    if not all(verdict.comparison.is_equal for verdict in verdicts):
+        files, missing = generated(design, settings)
+    with progress() as show, failure_in_json(wanted=json):
+        verdicts = verdicts_of(design, settings, files, compiler=compiler, soak_ticks=soak_ticks, show=show)
+    if json:
+        print_json(verdict_document(verdicts, missing))
+    else:
+        rows = [
+            (v.code, v.stimulus, f"{v.ticks:,}", v.comparison.first_difference or "equal, bit for bit")
+            for v in verdicts
+        ]
+        print_table("generated code against its reference", ("code", "stimulus", "ticks", "outputs"), rows)
+        for line in verdict_lines(verdicts, missing):
+            typer.echo(line)
+    if not all_equal(verdicts):
         raise typer.Exit(1)
+
+
+def generated(design: DesignFile, settings: ShaperSettings) -> tuple[CodeFiles, dict[str, str]]:
+    """Generate every language that the number type allows; the reasons why others are left out.
+
+    Parameters
+    ----------
+    design : DesignFile
+        The design.
+    settings : ShaperSettings
+        Its block, in any number type.
+    """
+    from swayless.cli.generate import left_out, provenance
+    from swayless.codegen import TARGETS
+    from swayless.codegen import generate as generate_files
+
+    missing = left_out(settings)
+    origin = provenance(design)
+    return {name: generate_files(settings, origin, name) for name in TARGETS if name not in missing}, missing
 
 
 def verdicts_of(
     design: DesignFile,
-    files: dict[str, tuple[GeneratedFile, ...]],
+    settings: ShaperSettings,
+    files: CodeFiles,
     *,
-    number: str | None,
     compiler: str | None,
     soak_ticks: int,
-    show: Any,
+    show: Callable[[str], None],
 ) -> list[Verdict]:
     """Verify generated files against the reference of their design.
 
@@ -76,10 +112,10 @@ def verdicts_of(
     ----------
     design : DesignFile
         The design.
+    settings : ShaperSettings
+        Its block.
     files : dict
         Files by target.
-    number : str or None
-        Number type; None for the design's own.
     compiler : str or None
         Compiler; None for the first one found.
     soak_ticks : int
@@ -88,12 +124,11 @@ def verdicts_of(
         Shows progress.
     """
     from swayless.cli.generate import provenance
-    from swayless.machine.running import shaper_settings
     from swayless.verify import find_compiler, verify_block
 
     return list(
         verify_block(
-            shaper_settings(design, number=number),
+            settings,
             provenance(design),
             c_files=files.get("c", ()),
             st_files=files.get("st", ()),
@@ -104,48 +139,90 @@ def verdicts_of(
     )
 
 
-def print_verdicts(verdicts: Sequence[Verdict], *, json: bool) -> None:
-    """Print what verification found, as a table or for machines."""
-    from swayless.cli.console import print_json, print_table
+def all_equal(verdicts: Sequence[Verdict]) -> bool:
+    """Whether no run differs from its reference."""
+    return all(verdict.comparison.is_equal for verdict in verdicts)
 
-    if json:
-        print_json({"equal": all(v.comparison.is_equal for v in verdicts), "runs": [_document(v) for v in verdicts]})
-        return
-    rows = [
-        (v.code, v.stimulus, f"{v.ticks}", v.comparison.first_difference or "equal, bit for bit") for v in verdicts
+
+def verdict_lines(verdicts: Sequence[Verdict], missing: dict[str, str]) -> Iterator[str]:
+    """Sum up what was found, one line for each piece of code.
+
+    Parameters
+    ----------
+    verdicts : sequence of Verdict
+        Runs.
+    missing : dict
+        Why a language was left out, by target.
+    """
+    from swayless.cli.console import counted
+    from swayless.cli.generate import LANGUAGES
+
+    for code in dict.fromkeys(verdict.code for verdict in verdicts):
+        runs = [verdict for verdict in verdicts if verdict.code == code]
+        differing = [run for run in runs if not run.comparison.is_equal]
+        if not differing:
+            ticks = counted(sum(run.ticks for run in runs), "tick")
+            yield f"verified: {code}: every output of {ticks} equals the reference, bit for bit"
+        else:
+            first = f"{differing[0].stimulus}, {differing[0].comparison.first_difference}"
+            yield f"DIFFERS: {code}: {len(differing)} of {counted(len(runs), 'run')}; first: {first}"
+    for target, reason in missing.items():
+        yield f"{LANGUAGES[target]}: {reason}"
+
+
+def verdict_document(verdicts: Sequence[Verdict], missing: dict[str, str]) -> dict[str, Any]:
+    """Give what was found for machines.
+
+    Parameters
+    ----------
+    verdicts : sequence of Verdict
+        Runs; empty if verification did not run.
+    missing : dict
+        Why a language was left out, by target.
+    """
+    state = ("equal" if all_equal(verdicts) else "differs") if verdicts else "not run"
+    runs = [
+        {
+            "code": verdict.code,
+            "stimulus": verdict.stimulus,
+            "ticks": verdict.ticks,
+            "equal": verdict.comparison.is_equal,
+            "max_ulp": verdict.comparison.max_ulp,
+            "first_difference": verdict.comparison.first_difference,
+        }
+        for verdict in verdicts
     ]
-    print_table("Verification: generated code against its reference", ("code", "stimulus", "ticks", "outputs"), rows)
+    return {"verified": state, "runs": runs, "left_out": missing}
 
 
-def _document(verdict: Verdict) -> dict[str, Any]:
-    found = verdict.comparison
-    return {
-        "code": verdict.code,
-        "stimulus": verdict.stimulus,
-        "ticks": verdict.ticks,
-        "equal": found.is_equal,
-        "max_ulp": found.max_ulp,
-        "first_difference": found.first_difference,
-    }
-
-
-def _stored(directory: Path) -> tuple[DesignFile, dict[str, tuple[GeneratedFile, ...]]]:
+def _stored(directory: Path) -> tuple[DesignFile, CodeFiles]:
     """Read back what `build` wrote: one design file, and the code beside it."""
-    from swayless.codegen import GeneratedFile
+    from swayless.cli.console import counted
+    from swayless.codegen import TARGETS
     from swayless.errors import FileError
     from swayless.machine import load_design
 
     designs = sorted(directory.glob("*.design.json"))
     if len(designs) != 1:
-        raise FileError([f"{directory}: holds {len(designs)} files *.design.json; `swayless build` writes one"])
+        found = f"holds {counted(len(designs), 'file')} *.design.json"
+        raise FileError([f"{directory}: {found}; give a directory that `build` wrote, or a design file"])
     design = load_design(designs[0])
-    files = {}
-    for target in ("c", "st"):
-        paths = sorted(path for path in (directory / target).glob("*") if path.suffix in {".c", ".h", ".st"})
-        try:
-            files[target] = tuple(GeneratedFile(path.name, path.read_text(encoding="ascii")) for path in paths)
-        except (OSError, UnicodeDecodeError) as error:
-            raise FileError([f"{directory / target}: cannot be read: {error}"]) from error
+    files = {name: _code(directory / name) for name in TARGETS}
     if not any(files.values()):
-        raise FileError([f"{directory}: holds no generated code in c/ or st/"])
+        raise FileError([f"{directory}: holds no generated code in {' or '.join(TARGETS)}"])
     return design, files
+
+
+def _code(folder: Path) -> tuple[GeneratedFile, ...]:
+    from swayless.codegen import GeneratedFile
+    from swayless.errors import FileError
+
+    files = []
+    for path in sorted(path for path in folder.glob("*") if path.suffix in SUFFIXES):
+        try:
+            files.append(GeneratedFile(path.name, path.read_text(encoding="ascii")))
+        except UnicodeDecodeError as error:
+            raise FileError([f"{path}: is not ASCII text: byte {error.start}"]) from error
+        except OSError as error:
+            raise FileError([f"{path}: cannot be read: {error.strerror or error}"]) from error
+    return tuple(files)
