@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from swayless.codegen.provenance import Provenance
 from swayless.codegen.render import GeneratedFile
 from swayless.codegen.targets import c_harness
+from swayless.controller.number import NumberType
 from swayless.controller.settings import ShaperSettings
+from swayless.errors import VerificationError
 from swayless.verify.c_run import CompiledBlock
 from swayless.verify.comparison import Comparison, compare
 from swayless.verify.reference_run import run_reference
@@ -103,13 +105,21 @@ def verify_block(
             runs.append((f"C by {compiler.name}, {number.name}", None, stack.enter_context(block).run))
         for file in st_files:
             kind = "LREAL" if number.name == "double" else "REAL"
-            runs.append((f"ST by evaluator, {kind}", ST_TICKS, EvaluatedBlock(file.text, number).run))
+            runs.append((f"ST by evaluator, {kind}", ST_TICKS, _evaluated(file, number).run))
         for stimulus in _stimuli(settings, soak_ticks if c_files else 0):
             on_start(stimulus.name)
             expected = run_reference(settings, stimulus.inputs)
             for code, most_ticks, run in runs:
                 inputs = stimulus.inputs[:most_ticks]
                 yield Verdict(code, stimulus.name, inputs.size, compare(expected[:most_ticks], run(inputs)))
+
+
+def _evaluated(file: GeneratedFile, number: NumberType) -> EvaluatedBlock:
+    """Load a block; what is wrong with its text is said with the name of its file."""
+    try:
+        return EvaluatedBlock(file.text, number)
+    except VerificationError as error:
+        raise VerificationError(f"{file.path}: {error}") from error
 
 
 def _stimuli(settings: ShaperSettings, soak_ticks: int) -> Iterator[Stimulus]:
