@@ -5,6 +5,8 @@ Not for: ticks and number types (`swayless.controller`), nor for cranes and thei
 
 from swayless.design.convolution import convolve
 from swayless.design.families import FAMILIES, Family, design_shaper
+from swayless.design.grid import solve_on_grid
+from swayless.design.grid_shaper import GridShaper
 from swayless.design.residual import residual_vibration, residual_vibration_and_slope, vibration_error
 from swayless.design.robustness import (
     DEFAULT_TOLERANCE,
@@ -25,6 +27,7 @@ __all__ = [
     "FAMILIES",
     "Family",
     "FloatArray",
+    "GridShaper",
     "Guarantee",
     "Impulses",
     "Shaper",
@@ -40,6 +43,7 @@ __all__ = [
     "residual_vibration",
     "residual_vibration_and_slope",
     "rope_length_interval_m",
+    "solve_on_grid",
     "vibration_error",
     "worst_residual",
 ]

@@ -9,15 +9,15 @@ from collections.abc import Callable
 
 import swayless
 from swayless.design import (
+    GridShaper,
     Guarantee,
     Shaper,
     design_shaper,
     overtravel_s,
     peak_factor,
     rope_length_interval_m,
+    solve_on_grid,
 )
-from swayless.design.grid import solve_on_grid
-from swayless.design.grid_shaper import GridShaper
 from swayless.errors import DesignError
 from swayless.machine.design_document import (
     DesignFile,

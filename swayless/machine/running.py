@@ -13,8 +13,7 @@ from swayless.controller import (
     number_type,
     quantised_taps,
 )
-from swayless.design import Guarantee, Shaper
-from swayless.design.grid_shaper import GridShaper
+from swayless.design import GridShaper, Guarantee, Shaper
 from swayless.errors import ControllerError
 from swayless.machine.design_document import DesignFile, DriveRecord, GuaranteeRecord, ShaperRecord
 from swayless.plant import Band, Mode
