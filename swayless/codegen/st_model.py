@@ -276,6 +276,8 @@ class StModel:
             (self.st_real, "Goal", "command that the row in use lets pass"),
             (self.st_real, "Before", "ramped command of the last call"),
             (self.st_real, "Reach", "command or reference one tick on"),
+            (self.st_real, "Lowest", "least that the reference can be but for rounding"),
+            (self.st_real, "Highest", "most that the reference can be but for rounding"),
             (self.st_real, "LapSum", "part of the reference from this lap"),
             (self.st_real, "Start", "command from which the stop ramp starts"),
             (self.st_real, "RampStep", "step of a ramp"),

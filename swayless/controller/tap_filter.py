@@ -122,13 +122,20 @@ class FloatTapFilter(TapFilter):
             reference = reference + (amplitude * past)
             if in_lap:
                 lap = reference
-        if reference > self._max:  # by rounding alone, an ulp
-            reference = self._max
-        elif reference < -self._max:
-            reference = -self._max
+        low, high = self._bounds(command, row)
+        reference = min(max(reference, low), high)
         self._pending = self._pending + (command - reference)
         self._fresh = self._fresh + (command - lap)
         return reference
+
+    def _bounds(self, command: Any, row: int) -> tuple[Any, Any]:
+        """Give the bounds that a reference could pass by rounding alone, by an ulp.
+
+        Where amplitudes are negative, a command moves one way from the last rest, and so does the reference.
+        """
+        if not self._tables[row].waits:
+            return -self._max, self._max
+        return (self._base, command) if self._base < command else (command, self._base)
 
     def _lap(self) -> None:
         self._pending = self._fresh
