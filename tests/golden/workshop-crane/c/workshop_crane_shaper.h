@@ -1,0 +1,149 @@
+/*
+ * workshop_crane: command shaper. The load does not swing when the drive follows the reference.
+ *
+ * Made by swayless 0.1.0 from workshop-crane.toml.
+ * Design SHA-256 88482ab03e15fd10170952fd6f35645fb940db75acb52afb8c9bb004a21fdbae.
+ * This file is yours: use, change and ship it as you like.
+ *
+ * Tick 0.01 s, numbers in float, law fixed (tick clock).
+ * Commands in m/s, at most 0.666666687. Settled after 823 ticks without change.
+ * Rows of the selector, and the residual vibration that each guarantees on these very taps:
+ *   0 unshaped (ramped only)
+ *   1 2 to 3.4 m: zvd for 0.315218 Hz, damping ratio 0.002, duration 3.18 s
+ *     at most 5 % from 0.269838 to 0.36064 Hz (rope 1.90991 to 3.41158 m)
+ *     overtravel 1.58125 m per m/s, peak factor 1
+ *   2 3.2 to 7 m: ei for 0.232382 Hz, damping ratio 0.002, duration 4.31 s
+ *     at most 5 % from 0.185851 to 0.278971 Hz (rope 3.19186 to 7.19168 m)
+ *     overtravel 2.1446 m per m/s, peak factor 1
+ *   3 5 to 10 m: ei for 0.188379 Hz, damping ratio 0.002, duration 5.31 s
+ *     at most 5 % from 0.150659 to 0.226145 Hz (rope 4.85719 to 10.9438 m)
+ *     overtravel 2.64554 m per m/s, peak factor 1
+ *   4 any rope: ei3 for 0.243196 Hz, damping ratio 0.002, duration 8.23 s
+ *     at most 5 % from 0.12579 to 0.360962 Hz (rope 1.9065 to 15.699 m)
+ *     overtravel 4.09604 m per m/s, peak factor 1
+ *
+ * Call workshop_crane_shaper_init() once, then workshop_crane_shaper_step() once per tick.
+ * State: at most 3400 bytes, owned by the caller; no heap, no globals, no libm.
+ * Work per tick: the taps of the row in use, at most 9; none when settled.
+ * Bit equality with the reference needs -ffp-contract=off, and no -ffast-math.
+ *
+ * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
+ * Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.
+ * Wind, off-centre pick-up and a slack rope are beyond what a command can prevent.
+ */
+#ifndef WORKSHOP_CRANE_SHAPER_H
+#define WORKSHOP_CRANE_SHAPER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Commands, references and lengths: float, IEEE 754.
+typedef float workshop_crane_real_t;
+
+/// Length of a tick, in seconds: call workshop_crane_shaper_step() once per tick.
+#define WORKSHOP_CRANE_SHAPER_TICK_S (0.01)
+/// Number of rows besides row 0.
+#define WORKSHOP_CRANE_SHAPER_ROWS (4)
+/// Cells of the ring: the longest delay of any row, in ticks, and one.
+#define WORKSHOP_CRANE_SHAPER_RING (824)
+/// Upper bound of sizeof(workshop_crane_shaper_t), in bytes; checked when compiled.
+#define WORKSHOP_CRANE_SHAPER_RAM (3400)
+/// First and last part of the SHA-256 of the design; the .c file refuses another header's.
+#define WORKSHOP_CRANE_SHAPER_DESIGN (0x88482ab0u)
+
+/// Status: enable is false: row 0 (ramped, unshaped) is wanted.
+#define WORKSHOP_CRANE_SHAPER_DISABLED ((uint32_t)1u << 0)
+/// Status: row 0 is in use: the command is ramped, not shaped.
+#define WORKSHOP_CRANE_SHAPER_UNSHAPED ((uint32_t)1u << 1)
+/// Status: another row is wanted; it takes over when the block has settled.
+#define WORKSHOP_CRANE_SHAPER_ROW_WAITS ((uint32_t)1u << 2)
+/// Status: a new command waits until the block has settled.
+#define WORKSHOP_CRANE_SHAPER_COMMAND_WAITS ((uint32_t)1u << 3)
+/// Status: the command is beyond the maximum and was clamped to it.
+#define WORKSHOP_CRANE_SHAPER_COMMAND_CLAMPED ((uint32_t)1u << 4)
+/// Status: a command was not finite: counted as 0 until a finite 0 is commanded.
+#define WORKSHOP_CRANE_SHAPER_COMMAND_INVALID ((uint32_t)1u << 5)
+/// Status: the selector names no row: the last valid one is kept.
+#define WORKSHOP_CRANE_SHAPER_SELECTOR_INVALID ((uint32_t)1u << 6)
+/// Status: quick stop is latched until released, at rest, and the command is 0.
+#define WORKSHOP_CRANE_SHAPER_QUICK_STOP ((uint32_t)1u << 7)
+/// Status: emergency stop is latched until released and the command is 0.
+#define WORKSHOP_CRANE_SHAPER_EMERGENCY_STOP ((uint32_t)1u << 8)
+/// Status: the command is below the minimum and counts as 0.
+#define WORKSHOP_CRANE_SHAPER_BELOW_MINIMUM ((uint32_t)1u << 9)
+/// Status: inching: a small command from rest passes unshaped.
+#define WORKSHOP_CRANE_SHAPER_INCHING ((uint32_t)1u << 10)
+
+/// Inputs of one tick.
+typedef struct {
+    bool enable; ///< false: row 0 is wanted, ramped and unshaped
+    bool emergency_stop; ///< reference 0 at once; latched until the command has been 0
+    bool quick_stop; ///< unshaped stop on the quick-stop ramp; latched until at rest and the command has been 0
+    workshop_crane_real_t command; ///< [m/s] wanted speed; clamped to the maximum, and not finite counts as 0
+    uint8_t selector; ///< 0 unshaped, 1 to 4 rows; anything else keeps the last valid one
+} workshop_crane_shaper_input_t;
+
+/// Outputs of one tick.
+typedef struct {
+    workshop_crane_real_t reference; ///< [m/s] speed for the drive
+    workshop_crane_real_t stop_distance; ///< [m] signed way still to go if the command is 0 from the next tick on
+    workshop_crane_real_t stop_time_s; ///< [s] time until the reference is 0 then
+    uint32_t stop_time_ticks; ///< [ticks] the same time
+    workshop_crane_real_t residual_bound; ///< [ratio] residual vibration that the row in use guarantees in its band, 1 when unshaped
+    uint8_t row; ///< row in use
+    bool settled; ///< nothing is pending: a row may change
+    bool active; ///< the command is being shaped
+    bool error; ///< an input cannot be right; the status says which
+    uint32_t status; ///< one bit for each reason, see above
+} workshop_crane_shaper_output_t;
+
+/// State of one shaper. The caller owns it; nothing outside the two functions below may write to it.
+typedef struct {
+    workshop_crane_real_t pending; ///< sum of the references still to come
+    workshop_crane_real_t fresh; ///< the same from the commands of this lap alone
+    workshop_crane_real_t base; ///< command of the last rest
+    workshop_crane_real_t target; ///< target of the ramp
+    workshop_crane_real_t command; ///< ramped command
+    workshop_crane_real_t reference; ///< last reference
+    workshop_crane_real_t stop_distance; ///< last stop distance; it stays when settled
+    workshop_crane_real_t stop_time_s; ///< last stop time, likewise
+    workshop_crane_real_t held; ///< command held until it changes by the resolution
+    workshop_crane_shaper_input_t input; ///< last inputs
+    workshop_crane_shaper_output_t output; ///< last outputs
+    workshop_crane_real_t ring[WORKSHOP_CRANE_SHAPER_RING]; ///< last ramped commands
+    uint32_t head; ///< cell of the newest command
+    uint32_t still_ticks; ///< ticks without change, up to the longest delay
+    uint32_t stop_time_ticks; ///< last stop time, likewise
+    uint32_t status; ///< status bits of this tick
+    uint8_t row; ///< row in use
+    uint8_t selected_row; ///< last valid selector
+    uint8_t wanted_row; ///< row that takes over when settled
+    bool lapped; ///< the ring is full of commands since the last rest
+    bool foretold; ///< settled, and the stop is foretold
+    bool idle; ///< the last tick began and ended settled
+    bool zero_commanded; ///< the command is a valid 0
+    bool invalid; ///< a command was not finite
+    bool quick; ///< quick stop is latched
+    bool emergency; ///< emergency stop is latched
+} workshop_crane_shaper_t;
+
+/// Bring a shaper to the state after power-on: at rest at 0, row 0, nothing latched. Cost: O(1).
+/// @param shaper not NULL; need not be initialised
+void workshop_crane_shaper_init(workshop_crane_shaper_t *shaper);
+
+/// Run one tick: read the inputs, write every output. Never blocks, never fails; cost: O(taps of the row in use).
+/// @param shaper not NULL; initialised by workshop_crane_shaper_init()
+/// @param input  not NULL; any value of any field is allowed, see there
+/// @param output not NULL; written completely
+void workshop_crane_shaper_step(workshop_crane_shaper_t *shaper, const workshop_crane_shaper_input_t *input,
+    workshop_crane_shaper_output_t *output);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
