@@ -76,6 +76,11 @@ def main() -> None:
         for problem in problems:
             typer.echo(f"error: {problem}", err=True)
         sys.exit(_exit_code(error))
+    except OSError as error:
+        # Files are seen to where they are written; what is left is the machine: a full disk behind a pipe, no
+        # temporary folder, a compiler that does not start.
+        typer.echo(f"error: {error}", err=True)
+        sys.exit(EXIT_BAD)
 
 
 def _exit_code(error: SwaylessError) -> int:

@@ -21,6 +21,9 @@ from swayless.errors import VerificationError
 PIPE_WIDTH = 10_000
 """Columns of a table that does not go to a terminal: room for any line, so that none is folded."""
 
+INDENT = "  "
+"""In front of each line of a table."""
+
 
 def print_json(document: Any) -> None:
     """Print one JSON document, keys in the order given."""
@@ -41,7 +44,7 @@ def failure_in_json(*, wanted: bool) -> Iterator[None]:
 
 def print_line(text: str) -> None:
     """Print one remark; on a terminal it breaks between words."""
-    if sys.stdout.isatty():
+    if sys.stdout is not None and sys.stdout.isatty():  # None where the caller closed it
         text = textwrap.fill(text, shutil.get_terminal_size().columns, break_long_words=False)
     typer.echo(text)
 
@@ -63,9 +66,8 @@ def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]
     from rich.table import Table
 
     console = Console(highlight=False, emoji=False, markup=False)
-    if not console.is_terminal:
-        console = Console(highlight=False, emoji=False, markup=False, width=PIPE_WIDTH)
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 2, 0, 0), pad_edge=False, show_edge=False)
+    console.width = console.width - len(INDENT) if console.is_terminal else PIPE_WIDTH
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
     for column in columns:
         table.add_column(column, overflow="fold")
     for row in rows:
@@ -74,7 +76,7 @@ def print_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]
         console.print(table)
     typer.echo(f"{title}\n")
     for line in capture.get().splitlines():
-        typer.echo(f"  {line.rstrip()}")
+        typer.echo(f"{INDENT}{line}".rstrip())
     typer.echo()
 
 

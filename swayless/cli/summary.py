@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 MM_PER_M = 1000.0
 """Stop distances of int32 blocks are in mm."""
 
-STOPS_NOTE = "stop: way from full speed to rest once the button is released; quick stop: the same, unshaped"
+STOPS_NOTE = "stop: way from full speed to rest once the button is released; quick: by a quick stop"
 
 
 class Stops(NamedTuple):
@@ -62,8 +62,8 @@ def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
     settings : ShaperSettings
         Its block.
     """
-    held = "holds at rope [m]" if _on_rope(design) else "holds at [Hz]"
-    columns = ("knob", "row", "family", "residual", held, "lasts [s]", "stop [m]", "quick stop [m]")
+    held = "rope [m]" if _on_rope(design) else "range [Hz]"
+    columns = ("knob", "row", "family", "leaves", held, "time [s]", "stop [m]", "quick [m]")
     unshaped = stops(settings, 0)
     rows = [["0", "unshaped", "-", "-", "-", "0", f"{unshaped.released_m:.3f}", f"{unshaped.quick_m:.3f}"]]
     for knob, shaper in enumerate(design.shapers, start=1):
