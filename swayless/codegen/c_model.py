@@ -193,6 +193,11 @@ class CModel:
         return "(" + " | ".join(f"{self.macro}_SHAPER_{name}" for name in names) + ")"
 
     @property
+    def step_rounding_doc(self) -> str:
+        """How ramp steps are rounded."""
+        return "rounded down to whole counts" if self.is_integer else "rounded up to the grid"
+
+    @property
     def c_command_on_grid(self) -> str:
         """The command on the grid of the ramp steps, where whole counts are already."""
         return "command" if self.is_integer else f"{self.name}_on_grid(command)"
@@ -382,9 +387,7 @@ class CModel:
         real = f"{self.name}_real_t"
         anchor = self.literal(self.settings.limits.ramp_anchor)
         return [
-            CConstant(
-                real, "RAMP_ANCHOR", anchor, "next to it, floats are as coarse as the grid of the ramp steps"
-            ),
+            CConstant(real, "RAMP_ANCHOR", anchor, "floats next to it are the grid of ramp steps"),
             CConstant(
                 real,
                 "METRES_PER_UNIT_TICK",
@@ -441,9 +444,7 @@ class CModel:
                 if self.is_integer
                 else self.literal(glider.reciprocal)
             )
-            doc = f"{limits.units} per tick: {name.lower()}" + (
-                "" if self.is_integer else ", on the ramp grid"
-            )
+            doc = f"{limits.units} per tick: {name.lower()}"
             ramps.append(CConstant("", name, f"{self.literal(step)}, {rest}", doc))
         return ramps
 

@@ -186,7 +186,7 @@ class StModel:
             (
                 "RampAnchor",
                 limits.ramp_anchor,
-                "next to it, reals are as coarse as the grid of the ramp steps",
+                "reals next to it are the grid of ramp steps",
             ),
             ("MetresPerUnitTick", units.metres_per_unit_tick, "[m] way per unit of command and tick"),
             ("TickTime", units.tick_s, "[s] tick"),
