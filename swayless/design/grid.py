@@ -2,8 +2,8 @@
 
 Rounding the times of a shaper to ticks breaks its promise. Here the amplitudes are solved anew on whole ticks
 near the ideal times, so that the taps hold at least the band that the ideal shaper promises, and what is
-reported is proved on the very numbers that a design file stores. Not for: number types narrower than double
-(the controller's taps), or for drives that cannot make the levels between.
+reported is proved on the very numbers that a design file stores.
+Not for: number types narrower than double (the controller's taps), or drives that cannot make levels between.
 """
 
 from __future__ import annotations
@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from swayless.design.families import FAMILIES, design_shaper
 from swayless.design.grid_shaper import GridShaper, check_tick, decimal_amplitudes
-from swayless.design.minimax import minimax_amplitudes, zero_equalities
-from swayless.design.minimax.program import AmplitudeRule
+from swayless.design.minimax import AmplitudeRule, minimax_amplitudes, zero_equalities
 from swayless.design.minimax.response import IndexArray
 from swayless.design.residual import NEGLIGIBLE_AMPLITUDE
 from swayless.design.robustness import guarantee_of, worst_residual
@@ -31,6 +30,9 @@ EXTRA_TICKS = 2
 
 LARGEST_DURATION_TICKS = 20_000
 """Longest shaper on the grid: more cells are beyond any controller, and mean a tick in the wrong unit."""
+
+SMALLEST_LAST_AMPLITUDE = 1e-5
+"""Smallest last impulse of a shaper for the grid: a tenth of it still counts as the last one (1e-6)."""
 
 _ON_TICK = 1e-11  # relative: an ideal time this near a whole tick lies on it, as numbers of 12 digits show it
 _SLACK = 1e-9  # of the residual: more than times moved by _ON_TICK, or amplitudes put on the lattice, can add
@@ -78,19 +80,11 @@ def solve_on_grid(shaper: Shaper, tick_s: float) -> GridShaper:
     ([0, 10, 11], [0.498065102014, 0.398733159942, 0.103201738044])
     """
     check_tick(tick_s)
-    if shaper.family not in FAMILIES:
-        raise DesignError(
-            f"family {shaper.family!r}: on the tick grid it must be one of {', '.join(FAMILIES)}"
-        )
-    if shaper.duration_s > LARGEST_DURATION_TICKS * tick_s:
-        raise DesignError(
-            f"tick_s = {tick_s!r}: {shaper.family} lasts {shaper.duration_s:g} s, more than "
-            f"{LARGEST_DURATION_TICKS} ticks; must be at least {shaper.duration_s / LARGEST_DURATION_TICKS:g}"
-        )
+    _check_shaper(shaper, tick_s)
     try:
         return _solve(shaper, tick_s)
     except DesignError as error:
-        where = f"{shaper.family} at {shaper.guarantee.mode.frequency_hz:g} Hz, tick_s = {tick_s!r}"
+        where = f"{shaper.family} at {shaper.guarantee.mode.frequency_hz:g} Hz, tick_s = {tick_s:.12g}"
         raise DesignError(f"{where}: {error}{_suggestion(shaper, tick_s)}") from None
 
 
@@ -100,6 +94,25 @@ class _Impulses:
 
     times_s: FloatArray
     amplitudes: FloatArray
+
+
+def _check_shaper(shaper: Shaper, tick_s: float) -> None:
+    """Refuse what no tick, or no tick as fine as this one, can hold."""
+    if shaper.family not in FAMILIES:
+        raise DesignError(
+            f"family {shaper.family!r}: on the tick grid it must be one of {', '.join(FAMILIES)}; "
+            "the factors of a convolution are solved one by one"
+        )
+    if shaper.duration_s > LARGEST_DURATION_TICKS * tick_s:
+        raise DesignError(
+            f"tick_s = {tick_s:.12g}: {shaper.family} lasts {shaper.duration_s:g} s, more than "
+            f"{LARGEST_DURATION_TICKS} ticks; must be at least {shaper.duration_s / LARGEST_DURATION_TICKS:g}"
+        )
+    if abs(float(shaper.amplitudes[-1])) < SMALLEST_LAST_AMPLITUDE:
+        raise DesignError(
+            f"{shaper.family}: its last impulse is {shaper.amplitudes[-1]:.3g}, too small to split between "
+            f"ticks; must be at least {SMALLEST_LAST_AMPLITUDE:g}"
+        )
 
 
 def _solve(shaper: Shaper, tick_s: float) -> GridShaper:
@@ -133,10 +146,10 @@ def _solve_within(shaper: Shaper, tick_s: float, near: IndexArray, last: int) ->
         target_ratio=tolerance + _SLACK,
         least_last=_LEAST_LAST,
     )
-    if math.isinf(best.lower_bound_ratio):
-        raise DesignError(f"no amplitudes on {last} ticks cancel the mode")
+    if math.isinf(best.worst_residual_ratio):
+        raise DesignError(f"no amplitudes within {last} ticks cancel the mode")
     if best.lower_bound_ratio > tolerance:
-        least = f"no amplitudes on {last} ticks leave less than {100 * best.lower_bound_ratio:.4g} %"
+        least = f"no amplitudes within {last} ticks leave less than {100 * best.lower_bound_ratio:.4g} %"
         raise DesignError(f"{least}, and {100 * tolerance:g} % is promised")
     return _proved(best.taps - best.taps[0], best.amplitudes, tick_s, shaper.guarantee)
 

@@ -3,8 +3,8 @@
 The worst residual vibration over a band is convex in the amplitudes, so the optimum found is the global one.
 It is found by exchange: a small linear program over a few times and a few half-planes (a frequency and a
 phase each) is solved; half-planes are added where its amplitudes break the bound inside the band, and times
-are added where its dual values say that they would help. Not for: times that move continuously (`families`),
-or for choosing how long a design is (`grid`).
+are added where its dual values say that they would help.
+Not for: times that move continuously (`families`), or for choosing how long a design is (`grid`).
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def minimax_amplitudes(
         those in use is returned; once it is proved out of reach the search ends. 0: the optimum over all
         times.
     least_last : float
-        Smallest amplitude at the last time, which `start` must then hold. 0: the last time need not be used.
+        Smallest amplitude at the last time. 0: the last time need not be used.
 
     Returns
     -------
@@ -83,6 +83,8 @@ def minimax_amplitudes(
     if not 0.0 <= damping_ratio < 1.0:
         raise DesignError(f"damping_ratio = {damping_ratio!r}: must be at least 0 and below 1")
     taps = np.unique(np.linspace(0, times_s.size - 1, 12).astype(np.intp)) if start is None else start
+    if least_last > 0.0:
+        taps = np.union1d(taps, times_s.size - 1)
     duration_s = float(times_s[-1] - times_s[0])
     exchange = Exchange(
         response=Response.of_times(times_s, damping_ratio),

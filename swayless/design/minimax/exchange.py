@@ -178,8 +178,8 @@ class Exchange:
 
     def _active(self, taps: IndexArray, amplitudes: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Every equality that the amplitudes must keep: the sum, the design's own, and levels at a limit."""
-        levels, highest = np.cumsum(amplitudes)[:-1], np.full(taps.size - 1, 1.0)
-        highest[-1] = 1.0 - self.least_last
+        levels, highest = np.cumsum(amplitudes)[:-1], np.ones(taps.size - 1)
+        highest[-1:] = 1.0 - self.least_last
         bounded = self.rule is AmplitudeRule.BOUNDED
         low, high = bounded & (levels < _AT_LIMIT), levels > highest - _AT_LIMIT
         high[:-1] &= bounded
