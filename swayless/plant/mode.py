@@ -27,7 +27,7 @@ class Mode:
     Examples
     --------
     >>> Mode(0.5, 0.1).damped_period_s
-    2.0100756305184246
+    2.010075630518424
     """
 
     frequency_hz: float

@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[2]
 @pytest.mark.parametrize(
     "command",
     [("ruff", "check", "."), ("ruff", "format", "--check", "."), ("mypy",)],
-    ids=lambda c: " ".join(c),
+    ids=" ".join,
 )
 def test_static_checks_find_nothing(command):
     done = subprocess.run(

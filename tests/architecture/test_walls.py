@@ -62,6 +62,8 @@ def without_type_checking(tree: ast.Module) -> ast.Module:
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_rooms_import_one_way(path):
     room = room_of(path)
+    if room == "__main__":
+        room = "cli"  # one line that starts it
     if room == "__init__":
         assert not {name for name in imports_of(path) if name.startswith("swayless")}
         return

@@ -48,7 +48,7 @@ name = "plain"
 family = "zv"
 rope_length = 8
 """
-"""Every optional part of the law at once: inching, minimum, resolution, waiting rows, three different ramps."""
+"""Every optional part of the law: inching, minimum, resolution, waiting rows, three different ramps."""
 
 COUNTS_PER_M_S = 12_000.0
 """For examples that say nothing of counts."""

@@ -42,4 +42,6 @@ def test_a_nan_for_a_number_is_an_infinite_difference():
 
 
 def test_a_missing_tick_is_a_difference():
-    assert compare(outputs((0.0, 0), (0.0, 0)), outputs((0.0, 0))).first_difference == "expected 2 ticks, got 1"
+    assert (
+        compare(outputs((0.0, 0), (0.0, 0)), outputs((0.0, 0))).first_difference == "expected 2 ticks, got 1"
+    )

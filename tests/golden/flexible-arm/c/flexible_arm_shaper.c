@@ -58,16 +58,19 @@ static const flexible_arm_real_t flexible_arm_RESIDUAL_BOUND[4] = {
     1000000, 50000, 50000, 50000
 };
 
-/* A ramp: its step per tick and what its closed form needs. */
+/* A ramp: its step per tick, rounded down to whole counts, and what its closed form needs. */
 typedef struct {
     flexible_arm_real_t step;
     uint32_t shift; /* the reciprocal is 2 to this power too large */
     uint64_t reciprocal; /* steps per count, scaled */
 } flexible_arm_ramp_t;
 
-static const flexible_arm_ramp_t flexible_arm_ACCELERATION = { 12000, 44u, UINT64_C(1466015504) }; /* counts per tick: acceleration */
-static const flexible_arm_ramp_t flexible_arm_DECELERATION = { 12000, 44u, UINT64_C(1466015504) }; /* counts per tick: deceleration */
-static const flexible_arm_ramp_t flexible_arm_QUICK_STOP = { 12000, 44u, UINT64_C(1466015504) }; /* counts per tick: quick_stop */
+/* counts per tick: acceleration */
+static const flexible_arm_ramp_t flexible_arm_ACCELERATION = { 12000, 44u, UINT64_C(1466015504) };
+/* counts per tick: deceleration */
+static const flexible_arm_ramp_t flexible_arm_DECELERATION = { 12000, 44u, UINT64_C(1466015504) };
+/* counts per tick: quick_stop */
+static const flexible_arm_ramp_t flexible_arm_QUICK_STOP = { 12000, 44u, UINT64_C(1466015504) };
 
 /* What a ramp still has to do: ticks, and the sum of the commands of those ticks. */
 typedef struct {
@@ -236,7 +239,7 @@ static bool flexible_arm_settled(const flexible_arm_shaper_t *s)
     return s->still_ticks >= flexible_arm_LAST_TICKS;
 }
 
-/* One tick further up: growing by the acceleration, shrinking by the deceleration, passing 0 by neither more. */
+/* One tick further up: grows by the acceleration, shrinks by the deceleration, passes 0 by no more of either. */
 static flexible_arm_real_t flexible_arm_raised(flexible_arm_real_t command)
 {
     flexible_arm_real_t reach;
@@ -303,7 +306,7 @@ static void flexible_arm_stop(flexible_arm_shaper_t *s)
     flexible_arm_rest(s, s->reference);
 }
 
-/* Make the command the ramp's target. */
+/* The command becomes the target. */
 static void flexible_arm_accept(flexible_arm_shaper_t *s, flexible_arm_real_t command)
 {
     flexible_arm_real_t wanted = command;

@@ -13,7 +13,7 @@ typedef char srtc_gantry_ram_check[(sizeof(srtc_gantry_shaper_t) <= (unsigned)SR
 
 static const uint32_t srtc_gantry_LAST_TICKS = 181u; /* longest delay of any row */
 static const srtc_gantry_real_t srtc_gantry_MAX_COMMAND = 0.5; /* m/s: max_speed */
-static const srtc_gantry_real_t srtc_gantry_RAMP_ANCHOR = 1.0; /* next to it, floats are as coarse as the grid of the ramp steps */
+static const srtc_gantry_real_t srtc_gantry_RAMP_ANCHOR = 1.0; /* floats next to it are the grid of ramp steps */
 static const srtc_gantry_real_t srtc_gantry_METRES_PER_UNIT_TICK = 0.01; /* m of way per unit and tick */
 static const srtc_gantry_real_t srtc_gantry_TICK_S = 0.01; /* s: tick */
 
@@ -52,15 +52,18 @@ static const bool srtc_gantry_WAITS[4] = {
     false, true, true, true
 };
 
-/* A ramp: its step per tick and what its closed form needs. */
+/* A ramp: its step per tick, rounded up to the grid, and what its closed form needs. */
 typedef struct {
     srtc_gantry_real_t step;
     srtc_gantry_real_t steps_per_unit; /* 1 / step */
 } srtc_gantry_ramp_t;
 
-static const srtc_gantry_ramp_t srtc_gantry_ACCELERATION = { 0.0050000000000001155, 199.9999999999954 }; /* m/s per tick: acceleration, on the ramp grid */
-static const srtc_gantry_ramp_t srtc_gantry_DECELERATION = { 0.0050000000000001155, 199.9999999999954 }; /* m/s per tick: deceleration, on the ramp grid */
-static const srtc_gantry_ramp_t srtc_gantry_QUICK_STOP = { 0.0050000000000001155, 199.9999999999954 }; /* m/s per tick: quick_stop, on the ramp grid */
+/* m/s per tick: acceleration */
+static const srtc_gantry_ramp_t srtc_gantry_ACCELERATION = { 0.0050000000000001155, 199.9999999999954 };
+/* m/s per tick: deceleration */
+static const srtc_gantry_ramp_t srtc_gantry_DECELERATION = { 0.0050000000000001155, 199.9999999999954 };
+/* m/s per tick: quick_stop */
+static const srtc_gantry_ramp_t srtc_gantry_QUICK_STOP = { 0.0050000000000001155, 199.9999999999954 };
 
 /* What a ramp still has to do: ticks, and the sum of the commands of those ticks. */
 typedef struct {
@@ -78,7 +81,7 @@ static bool srtc_gantry_equal(srtc_gantry_real_t a, srtc_gantry_real_t b)
     return (a <= b) && (a >= b);
 }
 
-/* Round a command to the grid of the ramp steps: next to the anchor, floats are no finer than that. */
+/* Round a command to the grid of ramp steps: from there on a ramp adds exactly. */
 static srtc_gantry_real_t srtc_gantry_on_grid(srtc_gantry_real_t command)
 {
     const srtc_gantry_real_t anchor = (command < 0.0) ? -srtc_gantry_RAMP_ANCHOR : srtc_gantry_RAMP_ANCHOR;
@@ -128,7 +131,8 @@ static srtc_gantry_real_t srtc_gantry_run(srtc_gantry_shaper_t *s, srtc_gantry_r
             reference = reference + (srtc_gantry_AMPLITUDE[i] * s->ring[s->head - delay]);
             lap = reference;
         } else if (s->lapped) {
-            reference = reference + (srtc_gantry_AMPLITUDE[i] * s->ring[s->head + ((srtc_gantry_LAST_TICKS + 1u) - delay)]);
+            const uint32_t cell = s->head + ((srtc_gantry_LAST_TICKS + 1u) - delay);
+            reference = reference + (srtc_gantry_AMPLITUDE[i] * s->ring[cell]);
         } else {
             reference = reference + (srtc_gantry_AMPLITUDE[i] * s->base);
         }
@@ -149,7 +153,7 @@ static srtc_gantry_real_t srtc_gantry_run(srtc_gantry_shaper_t *s, srtc_gantry_r
     s->pending = s->pending + (command - reference);
     s->fresh = s->fresh + (command - lap);
     if (s->head >= srtc_gantry_LAST_TICKS) {
-        /* A full lap knows every command within reach: its sum replaces the older one and ends its rounding. */
+        /* A full lap knows every command within reach: its sum ends the rounding of the older one. */
         s->pending = s->fresh;
         s->fresh = 0.0;
         s->lapped = true;
@@ -249,7 +253,7 @@ static bool srtc_gantry_settled(const srtc_gantry_shaper_t *s)
     return s->still_ticks >= srtc_gantry_LAST_TICKS;
 }
 
-/* One tick further up: growing by the acceleration, shrinking by the deceleration, passing 0 by neither more. */
+/* One tick further up: grows by the acceleration, shrinks by the deceleration, passes 0 by no more of either. */
 static srtc_gantry_real_t srtc_gantry_raised(srtc_gantry_real_t command)
 {
     srtc_gantry_real_t reach;
@@ -316,7 +320,7 @@ static void srtc_gantry_stop(srtc_gantry_shaper_t *s)
     srtc_gantry_rest(s, s->reference);
 }
 
-/* Make the command the ramp's target: at once or, where amplitudes are negative, when settled only. */
+/* The command becomes the target: at once or, where amplitudes are negative, when settled only. */
 static void srtc_gantry_accept(srtc_gantry_shaper_t *s, srtc_gantry_real_t command)
 {
     srtc_gantry_real_t wanted = command;
@@ -403,7 +407,8 @@ static srtc_gantry_glide_t srtc_gantry_foretell_waiting(const srtc_gantry_shaper
 {
     const srtc_gantry_real_t target = s->target;
     const bool faster = srtc_gantry_abs(target) > srtc_gantry_abs(s->command);
-    const srtc_gantry_glide_t rise = srtc_gantry_glide(s->command, target, faster ? &srtc_gantry_ACCELERATION : &srtc_gantry_DECELERATION);
+    const srtc_gantry_ramp_t *const ramp = faster ? &srtc_gantry_ACCELERATION : &srtc_gantry_DECELERATION;
+    const srtc_gantry_glide_t rise = srtc_gantry_glide(s->command, target, ramp);
     const srtc_gantry_glide_t down = srtc_gantry_glide(target, 0.0, &srtc_gantry_DECELERATION);
     const uint32_t hold = (rise.ticks > 0u) ? srtc_gantry_LAST_TICKS : (srtc_gantry_LAST_TICKS - s->still_ticks);
     const uint8_t row = srtc_gantry_row_at_rest(s);

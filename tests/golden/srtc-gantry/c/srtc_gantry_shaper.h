@@ -81,8 +81,8 @@ typedef double srtc_gantry_real_t;
 /// Inputs of one tick.
 typedef struct {
     bool enable; ///< false: row 0 is wanted, ramped and unshaped
-    bool emergency_stop; ///< reference 0 at once; latched until the command has been 0
-    bool quick_stop; ///< unshaped stop on the quick-stop ramp; latched until at rest and the command has been 0
+    bool emergency_stop; ///< reference 0 at once; latched until the command is 0
+    bool quick_stop; ///< unshaped stop on its own ramp; latched until at rest and the command is 0
     srtc_gantry_real_t command; ///< [m/s] wanted speed; clamped to the maximum, and not finite counts as 0
     uint8_t selector; ///< 0 unshaped, 1 to 3 rows; anything else keeps the last valid one
 } srtc_gantry_shaper_input_t;
@@ -93,7 +93,7 @@ typedef struct {
     srtc_gantry_real_t stop_distance; ///< [m] signed way still to go if the command is 0 from the next tick on
     srtc_gantry_real_t stop_time_s; ///< [s] time until the reference is 0 then
     uint32_t stop_time_ticks; ///< [ticks] the same time
-    srtc_gantry_real_t residual_bound; ///< [ratio] residual vibration that the row in use guarantees in its band, 1 when unshaped
+    srtc_gantry_real_t residual_bound; ///< [ratio] residual vibration that the row guarantees; all of it when unshaped
     uint8_t row; ///< row in use
     bool settled; ///< nothing is pending: a row may change
     bool active; ///< the command is being shaped
@@ -134,7 +134,7 @@ typedef struct {
 /// @param shaper not NULL; need not be initialised
 void srtc_gantry_shaper_init(srtc_gantry_shaper_t *shaper);
 
-/// Run one tick: read the inputs, write every output. Never blocks, never fails; cost: O(taps of the row in use).
+/// Run one tick: read the inputs, write every output. Never blocks, never fails; cost: O(taps of the row).
 /// @param shaper not NULL; initialised by srtc_gantry_shaper_init()
 /// @param input  not NULL; any value of any field is allowed, see there
 /// @param output not NULL; written completely

@@ -15,7 +15,7 @@ static const uint32_t workshop_crane_LAST_TICKS = 823u; /* longest delay of any 
 static const workshop_crane_real_t workshop_crane_MAX_COMMAND = 0.6666667f; /* m/s: max_speed */
 static const workshop_crane_real_t workshop_crane_MINIMUM_COMMAND = 0.016666668f; /* m/s: minimum_speed */
 static const workshop_crane_real_t workshop_crane_COMMAND_RESOLUTION = 0.0033333334f; /* m/s: command_resolution */
-static const workshop_crane_real_t workshop_crane_RAMP_ANCHOR = 1.0f; /* next to it, floats are as coarse as the grid of the ramp steps */
+static const workshop_crane_real_t workshop_crane_RAMP_ANCHOR = 1.0f; /* floats next to it are the grid of ramp steps */
 static const workshop_crane_real_t workshop_crane_METRES_PER_UNIT_TICK = 0.01f; /* m of way per unit and tick */
 static const workshop_crane_real_t workshop_crane_TICK_S = 0.01f; /* s: tick */
 
@@ -54,15 +54,18 @@ static const workshop_crane_real_t workshop_crane_RESIDUAL_BOUND[5] = {
     1.0f, 0.05f, 0.05f, 0.05f, 0.05f
 };
 
-/* A ramp: its step per tick and what its closed form needs. */
+/* A ramp: its step per tick, rounded up to the grid, and what its closed form needs. */
 typedef struct {
     workshop_crane_real_t step;
     workshop_crane_real_t steps_per_unit; /* 1 / step */
 } workshop_crane_ramp_t;
 
-static const workshop_crane_ramp_t workshop_crane_ACCELERATION = { 0.003000021f, 333.331f }; /* m/s per tick: acceleration, on the ramp grid */
-static const workshop_crane_ramp_t workshop_crane_DECELERATION = { 0.0040000677f, 249.99577f }; /* m/s per tick: deceleration, on the ramp grid */
-static const workshop_crane_ramp_t workshop_crane_QUICK_STOP = { 0.01000011f, 99.9989f }; /* m/s per tick: quick_stop, on the ramp grid */
+/* m/s per tick: acceleration */
+static const workshop_crane_ramp_t workshop_crane_ACCELERATION = { 0.003000021f, 333.331f };
+/* m/s per tick: deceleration */
+static const workshop_crane_ramp_t workshop_crane_DECELERATION = { 0.0040000677f, 249.99577f };
+/* m/s per tick: quick_stop */
+static const workshop_crane_ramp_t workshop_crane_QUICK_STOP = { 0.01000011f, 99.9989f };
 
 /* What a ramp still has to do: ticks, and the sum of the commands of those ticks. */
 typedef struct {
@@ -80,7 +83,7 @@ static bool workshop_crane_equal(workshop_crane_real_t a, workshop_crane_real_t 
     return (a <= b) && (a >= b);
 }
 
-/* Round a command to the grid of the ramp steps: next to the anchor, floats are no finer than that. */
+/* Round a command to the grid of ramp steps: from there on a ramp adds exactly. */
 static workshop_crane_real_t workshop_crane_on_grid(workshop_crane_real_t command)
 {
     const workshop_crane_real_t anchor = (command < 0.0f) ? -workshop_crane_RAMP_ANCHOR : workshop_crane_RAMP_ANCHOR;
@@ -130,7 +133,8 @@ static workshop_crane_real_t workshop_crane_run(workshop_crane_shaper_t *s, work
             reference = reference + (workshop_crane_AMPLITUDE[i] * s->ring[s->head - delay]);
             lap = reference;
         } else if (s->lapped) {
-            reference = reference + (workshop_crane_AMPLITUDE[i] * s->ring[s->head + ((workshop_crane_LAST_TICKS + 1u) - delay)]);
+            const uint32_t cell = s->head + ((workshop_crane_LAST_TICKS + 1u) - delay);
+            reference = reference + (workshop_crane_AMPLITUDE[i] * s->ring[cell]);
         } else {
             reference = reference + (workshop_crane_AMPLITUDE[i] * s->base);
         }
@@ -146,7 +150,7 @@ static workshop_crane_real_t workshop_crane_run(workshop_crane_shaper_t *s, work
     s->pending = s->pending + (command - reference);
     s->fresh = s->fresh + (command - lap);
     if (s->head >= workshop_crane_LAST_TICKS) {
-        /* A full lap knows every command within reach: its sum replaces the older one and ends its rounding. */
+        /* A full lap knows every command within reach: its sum ends the rounding of the older one. */
         s->pending = s->fresh;
         s->fresh = 0.0f;
         s->lapped = true;
@@ -256,7 +260,7 @@ static bool workshop_crane_settled(const workshop_crane_shaper_t *s)
     return s->still_ticks >= workshop_crane_LAST_TICKS;
 }
 
-/* One tick further up: growing by the acceleration, shrinking by the deceleration, passing 0 by neither more. */
+/* One tick further up: grows by the acceleration, shrinks by the deceleration, passes 0 by no more of either. */
 static workshop_crane_real_t workshop_crane_raised(workshop_crane_real_t command)
 {
     workshop_crane_real_t reach;
@@ -323,7 +327,7 @@ static void workshop_crane_stop(workshop_crane_shaper_t *s)
     workshop_crane_rest(s, s->reference);
 }
 
-/* Make the command the ramp's target. */
+/* The command becomes the target. */
 static void workshop_crane_accept(workshop_crane_shaper_t *s, workshop_crane_real_t command)
 {
     workshop_crane_real_t wanted = command;
