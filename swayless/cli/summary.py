@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from swayless.cli.console import interval, per_cent, print_line, print_table
 
 if TYPE_CHECKING:
-    from swayless.controller import ShaperSettings
+    from swayless.controller import ShaperOutput, ShaperSettings
     from swayless.machine import DesignFile, ShaperRecord, TapsRecord
 
 MM_PER_M = 1000.0
@@ -20,15 +20,20 @@ MM_PER_M = 1000.0
 STOPS_NOTE = "stop: way from full speed to rest once the button is released; quick: by a quick stop"
 
 
-class Stops(NamedTuple):
-    """Ways from full speed to rest, in m, counted from the tick in which a button is released or pressed."""
+class Ways(NamedTuple):
+    """Ways of the crane, in m: to rest from full speed, released or by a quick stop, and of the shortest jog.
+
+    The way of a stop counts from the tick in which the button is released or pressed; the shortest jog is a
+    press of full speed for one tick.
+    """
 
     released_m: float
     quick_m: float
+    jog_m: float
 
 
-def stops(settings: ShaperSettings, row: int) -> Stops:
-    """Ask the block's own reference for its stop distances.
+def ways(settings: ShaperSettings, row: int) -> Ways:
+    """Ask the block's own reference for the ways of a row.
 
     Parameters
     ----------
@@ -43,13 +48,23 @@ def stops(settings: ShaperSettings, row: int) -> Stops:
     limits = settings.limits
     full = ShaperInput(command=limits.max_command, selector=row)
     ramp_ticks = int(limits.max_command / limits.acceleration_step) + 2
+    first = steady = shaper.step(full)
     for _ in range(ramp_ticks + 2 * settings.longest_delay_ticks + 2):
         steady = shaper.step(full)
     quick = shaper.step(full._replace(quick_stop=True))
-    per_m = MM_PER_M if settings.number.is_integer else 1.0
-    # The distance counts from the next tick on; the tick of the quick stop itself is part of the way.
-    first_m = float(quick.reference) / limits.units_per_m_s * settings.tick_s
-    return Stops(float(steady.stop_distance) / per_m, float(quick.stop_distance) / per_m + first_m)
+    return Ways(
+        released_m=_still_to_go_m(settings, steady),
+        quick_m=_still_to_go_m(settings, quick) + _way_of_tick_m(settings, quick),
+        jog_m=_still_to_go_m(settings, first) + _way_of_tick_m(settings, first),
+    )
+
+
+def _still_to_go_m(settings: ShaperSettings, output: ShaperOutput) -> float:
+    return float(output.stop_distance) / (MM_PER_M if settings.number.is_integer else 1.0)
+
+
+def _way_of_tick_m(settings: ShaperSettings, output: ShaperOutput) -> float:
+    return float(output.reference) / settings.limits.units_per_m_s * settings.tick_s
 
 
 def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
@@ -64,24 +79,29 @@ def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
     """
     held = "rope [m]" if _on_rope(design) else "range [Hz]"
     columns = ("knob", "row", "family", "leaves", held, "time [s]", "stop [m]", "quick [m]")
-    unshaped = stops(settings, 0)
+    unshaped = ways(settings, 0)
     rows = [["0", "unshaped", "-", "-", "-", "0", f"{unshaped.released_m:.3f}", f"{unshaped.quick_m:.3f}"]]
     for knob, shaper in enumerate(design.shapers, start=1):
-        taps, way = _taps(shaper), stops(settings, knob)
+        taps, way = _taps(shaper), ways(settings, knob)
         row = [f"{knob}", shaper.name, shaper.family, f"<= {per_cent(taps.guarantee.tolerance)}"]
         row += [interval(*_held(design, taps)), f"{taps.duration_s:.4g}"]
         rows.append([*row, f"{way.released_m:.3f}", f"{way.quick_m:.3f}"])
     print_table(f"{design.name}: what each position of the knob guarantees", columns, rows)
     print_line(STOPS_NOTE)
-    for line in _remarks(design):
+    for line in _remarks(design, settings):
         print_line(line)
 
 
-def _remarks(design: DesignFile) -> Iterator[str]:
-    waiting = [shaper.name for shaper in design.shapers if min(shaper.amplitudes) < 0.0]
+def _remarks(design: DesignFile, settings: ShaperSettings) -> Iterator[str]:
+    waiting = [knob for knob, table in enumerate(settings.row_tables) if table.waits]
     if waiting:
-        names = ", ".join(waiting)
-        yield f"negative amplitudes in {names}: a new command waits until the last one has come to rest"
+        names = ", ".join(design.shapers[knob - 1].name for knob in waiting)
+        # The same for all of them: a command is held until the slowest row would have settled.
+        jog_m = ways(settings, waiting[0]).jog_m
+        yield (
+            f"negative amplitudes in {names}: a new command waits until the last one has come to rest, and the "
+            f"shortest jog at full speed goes {jog_m:.3f} m"
+        )
     if design.plant.frequency_hz[0] < design.plant.frequency_hz[1]:
         gaps = [f"{low:.4g} to {high:.4g}" for low, high in _gaps(design)]
         unit = "m of rope" if _on_rope(design) else "Hz"
@@ -129,7 +149,7 @@ def summary_document(design: DesignFile, settings: ShaperSettings) -> dict[str, 
         Its block.
     """
     nothing = dict.fromkeys(("family", "tolerance", "frequency_hz", "rope_length_m"))
-    rows = [{"knob": 0, "name": "unshaped", **nothing, "duration_s": 0.0, **_stops_document(settings, 0)}]
+    rows = [{"knob": 0, "name": "unshaped", **nothing, "duration_s": 0.0, **_ways_document(settings, 0)}]
     for knob, shaper in enumerate(design.shapers, start=1):
         taps = _taps(shaper)
         rows.append(
@@ -141,7 +161,7 @@ def summary_document(design: DesignFile, settings: ShaperSettings) -> dict[str, 
                 "frequency_hz": list(taps.guarantee.frequency_hz),
                 "rope_length_m": list(taps.guarantee.rope_length_m) if _on_rope(design) else None,
                 "duration_s": taps.duration_s,
-                **_stops_document(settings, knob),
+                **_ways_document(settings, knob),
             }
         )
     ranged = design.plant.frequency_hz[0] < design.plant.frequency_hz[1]
@@ -151,6 +171,10 @@ def summary_document(design: DesignFile, settings: ShaperSettings) -> dict[str, 
     return {"name": design.name, "number": settings.number.name, "rows": rows, **not_held}
 
 
-def _stops_document(settings: ShaperSettings, row: int) -> dict[str, float]:
-    way = stops(settings, row)
-    return {"stop_distance_released_m": way.released_m, "stop_distance_quick_m": way.quick_m}
+def _ways_document(settings: ShaperSettings, row: int) -> dict[str, float]:
+    way = ways(settings, row)
+    return {
+        "stop_distance_released_m": way.released_m,
+        "stop_distance_quick_m": way.quick_m,
+        "shortest_jog_m": way.jog_m,
+    }
