@@ -1,0 +1,116 @@
+"""The structures of the C block, inputs, outputs and state, and their memory. Not for: constant tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from swayless.codegen.c_types import CField, CTypes
+from swayless.codegen.features import Features
+from swayless.codegen.interface import Pin, input_pins, output_pins
+from swayless.controller.settings import ShaperSettings
+
+SIZES_BYTES = {
+    "bool": 1,
+    "uint8_t": 1,
+    "uint16_t": 2,
+    "uint32_t": 4,
+    "int32_t": 4,
+    "float": 4,
+    "int64_t": 8,
+    "double": 8,
+}
+"""Size and natural alignment of the C types in the state."""
+
+
+class CState:
+    """The structures of one block.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    types : CTypes
+        Its types.
+    features : Features
+        Parts of the law in use.
+    """
+
+    def __init__(self, settings: ShaperSettings, types: CTypes, features: Features) -> None:
+        self._types = types
+        self._ring_length = settings.longest_delay_ticks + 1
+        self.inputs = [self._member(pin) for pin in input_pins(settings)]
+        self.outputs = [self._member(pin) for pin in output_pins(settings)]
+        self.members = [*self._sums(), *self._commands(features), *self._buffers(), *self._flags(features)]
+
+    def _member(self, pin: Pin) -> CField:
+        types = {"bool": "bool", "real": self._types.real, "row": "uint8_t", "word": "uint32_t"}
+        return CField(types[pin.kind], pin.c_name, pin.text(is_integer=self._types.number.is_integer))
+
+    def _sums(self) -> list[CField]:
+        zero, wide = self._types.literal(0), self._types.sum
+        if self._types.number.is_integer:
+            second = CField(wide, "carry", "what rounding owes the next reference, over 2^30", "", zero)
+        else:
+            second = CField(wide, "fresh", "the same from the commands of this lap alone", "", zero)
+        return [CField(wide, "pending", "sum of the references still to come", "", zero), second]
+
+    def _commands(self, features: Features) -> list[CField]:
+        names = [
+            ("base", "command of the last rest"),
+            ("target", "target of the ramp"),
+            ("command", "ramped command"),
+            ("reference", "last reference"),
+        ]
+        if features.has_resolution:
+            names.append(("held", "command held until it changes by the resolution"))
+        return [CField(self._types.real, name, doc, "", self._types.literal(0)) for name, doc in names]
+
+    def _buffers(self) -> list[CField]:
+        ring = f"[{self._types.name.upper()}_SHAPER_RING]"
+        last = f"{self._ring_length - 1}u"
+        return [
+            CField(self._types.input, "input", "last inputs"),
+            CField(self._types.output, "output", "last outputs"),
+            CField(self._types.real, "ring", "last ramped commands", ring),
+            CField("uint32_t", "head", "cell of the newest command", "", last),
+            CField("uint32_t", "still_ticks", "ticks without change, up to the longest delay", "", last),
+            CField("uint32_t", "status", "status bits of this tick", "", "0u"),
+            CField("uint8_t", "row", "row in use", "", "0u"),
+            CField("uint8_t", "selected_row", "last valid selector", "", "0u"),
+            CField("uint8_t", "wanted_row", "row that takes over when settled", "", "0u"),
+        ]
+
+    def _flags(self, features: Features) -> list[CField]:
+        names = [
+            ("lapped", "the ring is full of commands since the last rest"),
+            ("foretold", "settled, and the stop is foretold"),
+            ("idle", "the last tick began and ended settled"),
+            ("zero_commanded", "the command is a valid 0"),
+            ("invalid", "a command was not finite"),
+            ("quick", "quick stop is latched"),
+            ("emergency", "emergency stop is latched"),
+        ]
+        if features.has_inching:
+            names.append(("inching", "a small command passes unshaped"))
+        return [CField("bool", name, doc, "", "false") for name, doc in names]
+
+    @property
+    def ram_bytes(self) -> int:
+        """Upper bound of the size of the state, with natural alignment."""
+        return self._layout(self.members)[0]
+
+    def _layout(self, members: Sequence[CField]) -> tuple[int, int]:
+        """Size and alignment of a structure, with natural alignment of its members."""
+        size, widest = 0, 1
+        for member in members:
+            width, alignment = self._size_of(member.c_type)
+            size = -(-size // alignment) * alignment + width * (self._ring_length if member.c_array else 1)
+            widest = max(widest, alignment)
+        return -(-size // widest) * widest, widest
+
+    def _size_of(self, c_type: str) -> tuple[int, int]:
+        structures = {self._types.input: self.inputs, self._types.output: self.outputs}
+        if c_type in structures:
+            return self._layout(structures[c_type])
+        width = SIZES_BYTES[self._types.plain_real if c_type == self._types.real else c_type]
+        return width, width
