@@ -482,11 +482,8 @@ void flexible_arm_shaper_init(flexible_arm_shaper_t *shaper)
     s->target = 0;
     s->command = 0;
     s->reference = 0;
-    s->stop_distance = 0;
-    s->stop_time_s = 0;
     s->head = 17u;
     s->still_ticks = 17u;
-    s->stop_time_ticks = 0u;
     s->status = 0u;
     s->row = 0u;
     s->selected_row = 0u;

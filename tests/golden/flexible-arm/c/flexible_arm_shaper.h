@@ -20,7 +20,7 @@
  *     overtravel 0.165193 m per m/s, peak factor 1
  *
  * Call flexible_arm_shaper_init() once, then flexible_arm_shaper_step() once per tick.
- * State: at most 184 bytes, owned by the caller; no heap, no globals, no libm.
+ * State: 168 bytes at most, owned by the caller; no heap, globals or libm.
  * Work per tick: the taps of the row in use, at most 7; none when settled.
  *
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -47,7 +47,7 @@ typedef int32_t flexible_arm_real_t;
 /// Cells of the ring: the longest delay of any row, in ticks, and one.
 #define FLEXIBLE_ARM_SHAPER_RING (18)
 /// Upper bound of sizeof(flexible_arm_shaper_t), in bytes; checked when compiled.
-#define FLEXIBLE_ARM_SHAPER_RAM (184)
+#define FLEXIBLE_ARM_SHAPER_RAM (168)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
 #define FLEXIBLE_ARM_SHAPER_DESIGN (0x28be43e1u)
 
@@ -105,14 +105,11 @@ typedef struct {
     flexible_arm_real_t target; ///< target of the ramp
     flexible_arm_real_t command; ///< ramped command
     flexible_arm_real_t reference; ///< last reference
-    flexible_arm_real_t stop_distance; ///< last stop distance; it stays when settled
-    flexible_arm_real_t stop_time_s; ///< last stop time, likewise
     flexible_arm_shaper_input_t input; ///< last inputs
     flexible_arm_shaper_output_t output; ///< last outputs
     flexible_arm_real_t ring[FLEXIBLE_ARM_SHAPER_RING]; ///< last ramped commands
     uint32_t head; ///< cell of the newest command
     uint32_t still_ticks; ///< ticks without change, up to the longest delay
-    uint32_t stop_time_ticks; ///< last stop time, likewise
     uint32_t status; ///< status bits of this tick
     uint8_t row; ///< row in use
     uint8_t selected_row; ///< last valid selector

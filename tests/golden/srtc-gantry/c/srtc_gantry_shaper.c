@@ -530,11 +530,8 @@ void srtc_gantry_shaper_init(srtc_gantry_shaper_t *shaper)
     s->target = 0.0;
     s->command = 0.0;
     s->reference = 0.0;
-    s->stop_distance = 0.0;
-    s->stop_time_s = 0.0;
     s->head = 181u;
     s->still_ticks = 181u;
-    s->stop_time_ticks = 0u;
     s->status = 0u;
     s->row = 0u;
     s->selected_row = 0u;

@@ -23,7 +23,7 @@
  *     negative amplitudes: a new command waits until the block has settled, short jogs are stretched
  *
  * Call srtc_gantry_shaper_init() once, then srtc_gantry_shaper_step() once per tick.
- * State: at most 1624 bytes, owned by the caller; no heap, no globals, no libm.
+ * State: 1600 bytes at most, owned by the caller; no heap, globals or libm.
  * Work per tick: the taps of the row in use, at most 5; none when settled.
  * Bit equality with the reference needs -ffp-contract=off, and no -ffast-math.
  *
@@ -51,7 +51,7 @@ typedef double srtc_gantry_real_t;
 /// Cells of the ring: the longest delay of any row, in ticks, and one.
 #define SRTC_GANTRY_SHAPER_RING (182)
 /// Upper bound of sizeof(srtc_gantry_shaper_t), in bytes; checked when compiled.
-#define SRTC_GANTRY_SHAPER_RAM (1624)
+#define SRTC_GANTRY_SHAPER_RAM (1600)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
 #define SRTC_GANTRY_SHAPER_DESIGN (0xb0d6eebcu)
 
@@ -109,14 +109,11 @@ typedef struct {
     srtc_gantry_real_t target; ///< target of the ramp
     srtc_gantry_real_t command; ///< ramped command
     srtc_gantry_real_t reference; ///< last reference
-    srtc_gantry_real_t stop_distance; ///< last stop distance; it stays when settled
-    srtc_gantry_real_t stop_time_s; ///< last stop time, likewise
     srtc_gantry_shaper_input_t input; ///< last inputs
     srtc_gantry_shaper_output_t output; ///< last outputs
     srtc_gantry_real_t ring[SRTC_GANTRY_SHAPER_RING]; ///< last ramped commands
     uint32_t head; ///< cell of the newest command
     uint32_t still_ticks; ///< ticks without change, up to the longest delay
-    uint32_t stop_time_ticks; ///< last stop time, likewise
     uint32_t status; ///< status bits of this tick
     uint8_t row; ///< row in use
     uint8_t selected_row; ///< last valid selector

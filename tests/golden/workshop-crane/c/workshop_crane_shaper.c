@@ -506,12 +506,9 @@ void workshop_crane_shaper_init(workshop_crane_shaper_t *shaper)
     s->target = 0.0f;
     s->command = 0.0f;
     s->reference = 0.0f;
-    s->stop_distance = 0.0f;
-    s->stop_time_s = 0.0f;
     s->held = 0.0f;
     s->head = 823u;
     s->still_ticks = 823u;
-    s->stop_time_ticks = 0u;
     s->status = 0u;
     s->row = 0u;
     s->selected_row = 0u;

@@ -23,7 +23,7 @@
  *     overtravel 4.09604 m per m/s, peak factor 1
  *
  * Call workshop_crane_shaper_init() once, then workshop_crane_shaper_step() once per tick.
- * State: at most 3400 bytes, owned by the caller; no heap, no globals, no libm.
+ * State: 3388 bytes at most, owned by the caller; no heap, globals or libm.
  * Work per tick: the taps of the row in use, at most 9; none when settled.
  * Bit equality with the reference needs -ffp-contract=off, and no -ffast-math.
  *
@@ -51,7 +51,7 @@ typedef float workshop_crane_real_t;
 /// Cells of the ring: the longest delay of any row, in ticks, and one.
 #define WORKSHOP_CRANE_SHAPER_RING (824)
 /// Upper bound of sizeof(workshop_crane_shaper_t), in bytes; checked when compiled.
-#define WORKSHOP_CRANE_SHAPER_RAM (3400)
+#define WORKSHOP_CRANE_SHAPER_RAM (3388)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
 #define WORKSHOP_CRANE_SHAPER_DESIGN (0x88482ab0u)
 
@@ -109,15 +109,12 @@ typedef struct {
     workshop_crane_real_t target; ///< target of the ramp
     workshop_crane_real_t command; ///< ramped command
     workshop_crane_real_t reference; ///< last reference
-    workshop_crane_real_t stop_distance; ///< last stop distance; it stays when settled
-    workshop_crane_real_t stop_time_s; ///< last stop time, likewise
     workshop_crane_real_t held; ///< command held until it changes by the resolution
     workshop_crane_shaper_input_t input; ///< last inputs
     workshop_crane_shaper_output_t output; ///< last outputs
     workshop_crane_real_t ring[WORKSHOP_CRANE_SHAPER_RING]; ///< last ramped commands
     uint32_t head; ///< cell of the newest command
     uint32_t still_ticks; ///< ticks without change, up to the longest delay
-    uint32_t stop_time_ticks; ///< last stop time, likewise
     uint32_t status; ///< status bits of this tick
     uint8_t row; ///< row in use
     uint8_t selected_row; ///< last valid selector
