@@ -55,6 +55,20 @@ def save_text(design: DesignFile) -> str:
     return text
 
 
+def as_stored(design: DesignFile) -> DesignFile:
+    """Give a design with every number as its file holds it.
+
+    Code is made from these numbers from the start: made from longer ones, it would change once the file is
+    read back.
+
+    Raises
+    ------
+    FileError
+        If the design breaks a rule that `load_design` checks.
+    """
+    return _read_design(save_text(design), Report("design"))
+
+
 def design_sha256(design: DesignFile) -> str:
     """Give the SHA-256, in hexadecimal, of the compact JSON: what `save_text` gives, without blanks.
 

@@ -28,6 +28,7 @@ from swayless.machine.design_document import (
     ShaperRecord,
     TapsRecord,
 )
+from swayless.machine.design_file import as_stored
 from swayless.machine.drive_section import DriveSection
 from swayless.machine.machine_file import Machine
 from swayless.machine.row_section import RowSection
@@ -59,7 +60,7 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
         except DesignError as error:
             raise DesignError(f'{machine.source}: [[row]] {position} ("{row.name}"): {error}') from error
     plant = machine.plant
-    return DesignFile(
+    design = DesignFile(
         name=machine.name,
         generator=GENERATOR,
         source=machine.source,
@@ -70,6 +71,7 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
         drive=drive_record(machine.drive),
         shapers=tuple(records),
     )
+    return as_stored(design)
 
 
 def design_mode(
@@ -99,7 +101,7 @@ def design_mode(
     kind, rope_m = (
         ("mode", None) if row.rope_length_m is None else ("crane", (row.rope_length_m, row.rope_length_m))
     )
-    return DesignFile(
+    design = DesignFile(
         name=name,
         generator=GENERATOR,
         source=None,
@@ -110,6 +112,7 @@ def design_mode(
         drive=drive_record(drive),
         shapers=(design_row(row, tick_s=tick_s),),
     )
+    return as_stored(design)
 
 
 def design_row(row: RowSection, *, tick_s: float | None) -> ShaperRecord:
