@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 MM_PER_M = 1000.0
 """Stop distances of int32 blocks are in mm."""
 
+WAY_DIGITS = 9
+"""Decimals of a way in m in a document: a nanometre."""
+
 STOPS_NOTE = "stop: way from full speed to rest once the button is released; quick: by a quick stop"
 
 
@@ -99,8 +102,8 @@ def _remarks(design: DesignFile, settings: ShaperSettings) -> Iterator[str]:
         # The same for all of them: a command is held until the slowest row would have settled.
         jog_m = ways(settings, waiting[0]).jog_m
         yield (
-            f"negative amplitudes in {names}: a new command waits until the last one has come to rest, and the "
-            f"shortest jog at full speed goes {jog_m:.3f} m"
+            f"negative amplitudes in {names}: a new command waits until the last one has come to rest, and "
+            f"the shortest jog at full speed goes {jog_m:.3f} m"
         )
     if design.plant.frequency_hz[0] < design.plant.frequency_hz[1]:
         gaps = [f"{low:.4g} to {high:.4g}" for low, high in _gaps(design)]
@@ -174,7 +177,7 @@ def summary_document(design: DesignFile, settings: ShaperSettings) -> dict[str, 
 def _ways_document(settings: ShaperSettings, row: int) -> dict[str, float]:
     way = ways(settings, row)
     return {
-        "stop_distance_released_m": way.released_m,
-        "stop_distance_quick_m": way.quick_m,
-        "shortest_jog_m": way.jog_m,
+        "stop_distance_released_m": round(way.released_m, WAY_DIGITS),
+        "stop_distance_quick_m": round(way.quick_m, WAY_DIGITS),
+        "shortest_jog_m": round(way.jog_m, WAY_DIGITS),
     }
