@@ -18,7 +18,8 @@ def report() -> list[str]:
     numpy_s = _median_s([sys.executable, "-c", "import numpy, scipy.optimize, matplotlib.figure"])
     help_s = _median_s([sys.executable, "-m", "swayless", "--help"])
     with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, "-m", "swayless", "build", str(EXAMPLE), "-o", f"{folder}/x", "--no-verify"]
+        build = ["build", str(EXAMPLE), "-o", f"{folder}/x", "--no-verify"]
+        command = [sys.executable, "-m", "swayless", *build]
         build_s = _median_s(command)
     return [
         line("swayless --help", help_s, "0.3 s", "an empty interpreter", empty_s),

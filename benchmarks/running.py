@@ -1,4 +1,4 @@
-"""What runs: a record shaped in numpy, and the generated C, changing and held, beside scipy and plain code."""
+"""What runs: a record shaped in numpy, and generated C, held and changing, beside scipy and plain code."""
 
 import ctypes
 import tempfile
@@ -49,7 +49,7 @@ double run(int changing, long ticks, int selector)
             srtc_gantry_shaper_step(&shaper, &input, &output);
             sum += output.reference;
         } else {
-            /* a plain ring with modulo and three taps: what one writes by hand, without ramp, rows and stops */
+            /* a plain ring with modulo and three taps, without ramp, rows and stops */
             ring[i % 182] = input.command;
             sum += 0.25 * ring[i % 182] + 0.5 * ring[(i + 91) % 182] + 0.25 * ring[(i + 1) % 182];
         }

@@ -1,4 +1,4 @@
-"""Time a piece of work: the least of several runs, which is what the machine can do when it is not disturbed."""
+"""Time a piece of work: the least of several runs, what the machine does when it is not disturbed."""
 
 import time
 from collections.abc import Callable

@@ -11,7 +11,7 @@ from swayless.verify.stimulus import output_dtype
 
 
 def run_reference(settings: ShaperSettings, inputs: NDArray[np.void]) -> NDArray[np.void]:
-    """Outputs of the reference, tick by tick.
+    """Run the reference, tick by tick.
 
     Parameters
     ----------

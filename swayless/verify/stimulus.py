@@ -105,7 +105,7 @@ class _Builder:
 
 
 def step_and_release(build: _Builder) -> Stimulus:
-    """A full step and its release on every row, both directions."""
+    """Step to full speed and release, on every row, both ways."""
     leg = build.ramp * 2 + build.last * 3 + 10
     parts = []
     for selector in range(build.rows + 1):
@@ -131,7 +131,7 @@ def jogs(build: _Builder) -> Stimulus:
 
 
 def joystick(build: _Builder, ticks: int) -> Stimulus:
-    """A random joystick: wandering, held, noisy; out of range at times."""
+    """Move a random joystick: wandering, held, noisy; out of range at times."""
     inputs = build.blank(ticks)
     wander = np.clip(np.cumsum(build.random.normal(0.0, 0.03, ticks)), -1.2, 1.2)
     levels = build.held(ticks, np.array([0.0, 0.0, 0.5, -0.5, 1.0, -1.0, 1.5, 0.01]), 3 * build.last + 20)
@@ -142,7 +142,7 @@ def joystick(build: _Builder, ticks: int) -> Stimulus:
 
 
 def knob(build: _Builder, ticks: int) -> Stimulus:
-    """The knob turned every few ticks, invalid positions among them, enable toggled."""
+    """Turn the knob every few ticks, to invalid positions too, and toggle enable."""
     inputs = build.blank(ticks)
     levels = build.held(ticks, np.array([0.0, 1.0, -1.0, 0.3]), 2 * (build.last + build.ramp))
     inputs["command"] = build.commands(levels)

@@ -1,4 +1,4 @@
-"""Prove generated code against the reference: the same stimuli through both, every output compared bit for bit.
+"""Prove generated code against the reference: the same stimuli through both, all outputs bit for bit.
 
 Not for: generating or finding files.
 """

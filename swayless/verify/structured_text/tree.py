@@ -137,8 +137,8 @@ def parse(source: str) -> Node:
 def _parser() -> Parser:
     try:
         # Imported here, as the parser is an extra that only running Structured Text needs.
-        import tree_sitter  # noqa: PLC0415
-        import tree_sitter_iec61131_3_st  # noqa: PLC0415
+        import tree_sitter
+        import tree_sitter_iec61131_3_st
     except ImportError as missing:
         raise ToolMissingError(
             f"running Structured Text needs the Python package {missing.name}: pip install 'swayless[verify]'"
