@@ -29,7 +29,7 @@ def changed(files, old, new):
 
 
 CHANGES = [
-    ("c", "s->fresh + (command - lap)", "s->fresh + (command - reference)"),
+    ("c", "s->fresh + (command - lap)", "s->fresh + (reference - lap)"),
     ("c", "s->still_ticks += 1u;", "s->still_ticks += 2u;"),
     ("c", "if (s->emergency ||", "if ((s->emergency && s->quick) ||"),
     ("c", "status |= SRTC_GANTRY_SHAPER_ROW_WAITS;", "status |= SRTC_GANTRY_SHAPER_UNSHAPED;"),

@@ -345,9 +345,9 @@ static flexible_arm_glide_t flexible_arm_glide(int32_t start, int32_t target, co
     if (start != target) {
         const int32_t step = (start > target) ? -ramp->step : ramp->step;
         const uint64_t gap = (uint64_t)(uint32_t)flexible_arm_abs(start - target);
-        const int64_t whole = (int64_t)(((gap - 1u) * ramp->reciprocal) >> ramp->shift);
-        const int64_t way = step * (int64_t)((uint64_t)(whole * (whole + 1)) >> 1);
-        glide.total = ((whole * start) + way) + target;
+        const uint64_t whole = ((gap - 1u) * ramp->reciprocal) >> ramp->shift;
+        const uint64_t pairs = (whole * (whole + 1u)) >> 1;
+        glide.total = (((int64_t)whole * start) + ((int64_t)pairs * step)) + target;
         glide.ticks = (uint32_t)whole + 1u;
     }
     return glide;
@@ -357,15 +357,16 @@ static flexible_arm_glide_t flexible_arm_glide(int32_t start, int32_t target, co
 static int32_t flexible_arm_distance(int64_t total)
 {
     const uint64_t magnitude = (uint64_t)((total < 0) ? -total : total);
-    const int32_t distance = (int32_t)(((magnitude * flexible_arm_DISTANCE_SCALE) + flexible_arm_DISTANCE_HALF)
-        >> flexible_arm_DISTANCE_SHIFT);
-    return (total < 0) ? -distance : distance;
+    const uint64_t scaled = (magnitude * flexible_arm_DISTANCE_SCALE) + flexible_arm_DISTANCE_HALF;
+    const uint64_t distance = scaled >> flexible_arm_DISTANCE_SHIFT;
+    return (total < 0) ? -(int32_t)distance : (int32_t)distance;
 }
 
 /* Whole seconds, rounded up. */
 static int32_t flexible_arm_time_s(uint32_t ticks)
 {
-    return (int32_t)((((uint64_t)ticks * flexible_arm_TIME_SCALE) + 0xFFFFFFFFu) >> 32);
+    const uint64_t seconds = (((uint64_t)ticks * flexible_arm_TIME_SCALE) + 0xFFFFFFFFu) >> 32;
+    return (int32_t)seconds;
 }
 
 /* The row that takes over if the command becomes 0 when settled. */

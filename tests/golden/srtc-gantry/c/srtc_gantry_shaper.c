@@ -131,8 +131,8 @@ static srtc_gantry_real_t srtc_gantry_run(srtc_gantry_shaper_t *s, srtc_gantry_r
             reference = reference + (srtc_gantry_AMPLITUDE[i] * s->ring[s->head - delay]);
             lap = reference;
         } else if (s->lapped) {
-            const uint32_t cell = s->head + ((srtc_gantry_LAST_TICKS + 1u) - delay);
-            reference = reference + (srtc_gantry_AMPLITUDE[i] * s->ring[cell]);
+            const uint32_t older = s->head + ((srtc_gantry_LAST_TICKS + 1u) - delay);
+            reference = reference + (srtc_gantry_AMPLITUDE[i] * s->ring[older]);
         } else {
             reference = reference + (srtc_gantry_AMPLITUDE[i] * s->base);
         }

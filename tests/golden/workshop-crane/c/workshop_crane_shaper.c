@@ -133,8 +133,8 @@ static workshop_crane_real_t workshop_crane_run(workshop_crane_shaper_t *s, work
             reference = reference + (workshop_crane_AMPLITUDE[i] * s->ring[s->head - delay]);
             lap = reference;
         } else if (s->lapped) {
-            const uint32_t cell = s->head + ((workshop_crane_LAST_TICKS + 1u) - delay);
-            reference = reference + (workshop_crane_AMPLITUDE[i] * s->ring[cell]);
+            const uint32_t older = s->head + ((workshop_crane_LAST_TICKS + 1u) - delay);
+            reference = reference + (workshop_crane_AMPLITUDE[i] * s->ring[older]);
         } else {
             reference = reference + (workshop_crane_AMPLITUDE[i] * s->base);
         }
