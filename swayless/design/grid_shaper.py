@@ -50,11 +50,10 @@ class GridShaper:
         if delays.ndim != 1 or delays.shape != amplitudes.shape or delays.size == 0:
             raise DesignError("taps: delays and amplitudes must be non-empty and of one length")
         if delays[0] != 0 or np.any(np.diff(delays) <= 0) or np.any(delays != self.delays_ticks):
-            raise DesignError(
-                f"taps: delays must be whole ticks from 0 and increase, got {list(self.delays_ticks)}"
-            )
+            given = np.asarray(self.delays_ticks).tolist()
+            raise DesignError(f"taps: delays must be whole ticks from 0 and increase, got {given}")
         units = np.rint(amplitudes * _UNITS)
-        if int(units.sum()) != _UNITS or np.any(amplitudes != units / _UNITS):
+        if units.sum() != _UNITS or np.any(amplitudes != units / _UNITS):
             raise DesignError(
                 f"taps: amplitudes must be multiples of 1e-12 with sum 1, got {amplitudes.tolist()}"
             )

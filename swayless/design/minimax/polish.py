@@ -14,9 +14,8 @@ from swayless.design.shaper import FloatArray
 
 _STEPS = 12  # two or three are usual
 _CONVERGED = 1e-13  # of the conditions, sums of at most a few dozen terms of order 1
-_STILL = (
-    1e-10  # step of the amplitudes, of order 1: peaks that tie but cannot all be met leave a rest elsewhere
-)
+_TIED = 1e-8  # what peaks leave in the conditions that tie to so much, but cannot all be of one height
+_STILL = 1e-10  # last step of the amplitudes, of order 1, in that case
 _FREE = 1e-13  # relative: directions that no condition fixes, such as weights that tie, stay where they are
 
 REPEATED_EQUALITY = 1e-9
@@ -78,7 +77,8 @@ def polish(
         slope, curvature = _derivatives(unknowns, response, equalities, targets, moving)
         steps = np.split(np.linalg.lstsq(curvature, -slope, rcond=_FREE)[0], ends)
         unknowns = [part + step for part, step in zip(unknowns, steps, strict=True)]
-        if np.abs(slope).max() < _CONVERGED or np.abs(steps[0]).max() < _STILL:
+        rest = np.abs(slope).max()
+        if rest < _CONVERGED or (rest < _TIED and np.abs(steps[0]).max() < _STILL):
             return meet(equalities, targets, unknowns[0])
     return None
 
