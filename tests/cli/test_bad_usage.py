@@ -1,0 +1,221 @@
+"""Wrong input: a message that says what to do, on standard error, exit code 2, and nothing written."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+
+from tests.cli.conftest import snapshot
+
+DESIGN = [
+    ("design zv", "--frequency, --period, --rope-length: exactly one of them is needed, none is given"),
+    ("design zv --frequency 1 --period 1", "needed, --frequency and --period are given"),
+    ("design zvv --frequency 1", 'FAMILY = "zvv": unknown family; nearest: zv,'),
+    ("design zv --frequency -1", "--frequency = -1: must be > 0"),
+    ("design zv --frequency 0", "--frequency = 0: must be > 0"),
+    ("design zv --frequency nan", "--frequency = nan: is not a finite number"),
+    ("design zv --frequency inf", "--frequency = inf: is not a finite number"),
+    ("design zv --frequency 1e300", "--frequency = 1e+300: must be at least 0.001 and at most 10000 Hz"),
+    (
+        "design zv --frequency 3kg",
+        '--frequency = "3kg": is not a frequency: allowed units are Hz, mHz, kHz, rpm',
+    ),
+    ("design zv --period 0", "--period = 0: must be > 0"),
+    ("design zv --period 1 --damping 1", "--damping = 1: must be at least 0 and below 1"),
+    ("design zv --rope-length -2", "--rope-length = -2: must be > 0"),
+    ("design ei --frequency 1 --tolerance 0", "--tolerance = 0: must be > 0"),
+    ("design ei --frequency 1 --tolerance 1", "--tolerance = 1: must be at least 1e-06 and below 1"),
+    ("design ei --frequency 1 --tolerance 2", "--tolerance = 2: must be at least 1e-06 and below 1"),
+    ("design ei3 --frequency 1 --damping 0.5", "ei3 at tolerance 0.05 exists up to damping_ratio 0.27"),
+    ("design zvm --frequency 1", '--order: missing: family "zvm" needs it'),
+    ("design zvm --frequency 1 --order x", '--order = "x": must be an integer from 0 to 18'),
+    ("design zv --frequency 1 --order 2", '--order = 2: family "zv" takes none; only zvm does'),
+    ("design oatf --frequency 1 --delay 0", "--delay = 0: must be > 0"),
+    ("design zv --frequency 1 --tick 2", "--tick = 2: must be at least 1e-06 and at most 1 s"),
+    ("design zv --frequency 4.5 --tick 0.5", "a tick of "),
+    ("design zv --frequency 1 --max-speed 0", "--max-speed = 0: must be > 0"),
+    ("design zv --frequency 1 --acceleration -1", "--acceleration = -1: must be > 0"),
+    (
+        "design zv --frequency 1 --number int32",
+        '--counts-per-m-s: missing: number = "int32" computes in counts',
+    ),
+    ("design zv --frequency 1 --counts-per-m-s nan", "--counts-per-m-s = nan: must be a number from"),
+    ("design zv --frequency 1 --number int32 --counts-per-m-s 1e11", "int32 allows 1 to 268435456"),
+    ("design zv --frequency 1 --number int64", "--number"),
+    (
+        "design zv --frequency 1 --name int",
+        'is a reserved word of C, C++ or Structured Text; for instance "int_crane"',
+    ),
+    ("design zv --frequency 1 --name lreal", "is a reserved word"),
+    ("design zv --frequency 1 --name A-b", "must be lower-case letters, digits and underscores"),
+    ("design zv --frequency 1 -o folder", "folder: cannot be written: it is a directory"),
+    ("design zv --frequency 1 -o no/a.json", "no/a.json: cannot be written: there is no folder no"),
+    ("design zv --frequency 1 -o empty.json/a.json", "cannot be written"),
+]
+FILES = [
+    ("init arm.toml", "arm.toml: is there already; choose another name, or replace it with --force"),
+    ("init folder --force", "folder: cannot be written: it is a directory"),
+    ("init no/a.toml", "no/a.toml: cannot be written: there is no folder no"),
+    ("init x.toml --example nope", "srtc-gantry"),
+    ("build", "MACHINE.toml"),
+    ("build a.toml b.toml", "b.toml"),
+    ("build none.toml", "none.toml: cannot be read: there is no such file"),
+    ("build folder", "folder: cannot be read: it is a directory"),
+    (
+        "build empty.toml",
+        "is empty: a machine file needs name, [crane] or [arm], [controller] and at least one",
+    ),
+    ("build garbage.bin", "garbage.bin: is not UTF-8 text: byte 0xff in line 1"),
+    ("build arm.toml -o empty.json", "empty.json: is a file, not a directory; choose another with -o"),
+    ("build arm.toml -o empty.json/x", "empty.json: is a file, not a directory"),
+    ("build arm.toml -o .", "arm.toml: is not a file that swayless makes here; move it away"),
+    ("build arm.toml --check -o empty.json", "empty.json: is a file, not a directory"),
+    ("build arm.toml --compiler tcc", "--compiler"),
+    ("build arm.toml --soak-ticks -1", "--soak-ticks"),
+    ("generate c", "FILE.json"),
+    ("generate java taps.json -o made", "LANGUAGE"),
+    ("generate c taps.json", "--output"),
+    (
+        "generate c plain.json -o made",
+        "the design has no tick: design it with --tick, for instance --tick '10 ms'",
+    ),
+    ("generate c none.json -o made", "none.json: cannot be read: there is no such file"),
+    (
+        "generate c empty.json -o made",
+        "empty.json: is empty: a design file is JSON that 'swayless design' or",
+    ),
+    ("generate c garbage.bin -o made", "garbage.bin: is not UTF-8 text"),
+    ("generate c folder -o made", "folder: cannot be read: it is a directory"),
+    ("generate c taps.json -o taps.json", "taps.json: is a file, not a directory"),
+    ("generate c taps.json -o .", "arm.toml: is not a file that swayless makes here"),
+    ("generate c taps.json -o made --number int32", "counts_per_m_s"),
+    ("generate st counts.json -o made --number int32", "'int32'"),
+    ("verify", "PATH"),
+    ("verify none.json", "none.json: cannot be read: there is no such file"),
+    ("verify plain.json", "the design has no tick"),
+    (
+        "verify folder",
+        "folder: holds 0 files *.design.json; give a directory that `build` wrote, or a design file",
+    ),
+    (
+        "verify folder --number float",
+        "--number: files in a directory have their number type; give a design file",
+    ),
+]
+PLOT = [
+    ("plot", "KIND"),
+    ("plot pie taps.json -o a.svg", "KIND"),
+    ("plot sensitivity taps.json", "--output"),
+    (
+        "plot sensitivity taps.json -o a.bmp",
+        "a.bmp: suffix '.bmp' is no figure format: must be one of .svg, .png, .pdf",
+    ),
+    ("plot sensitivity taps.json -o folder", "no figure format"),
+    ("plot sensitivity taps.json -o no/a.svg", "no/a.svg: cannot be written"),
+    ("plot sensitivity none.json -o a.svg", "none.json: cannot be read: there is no such file"),
+    (
+        "plot sensitivity taps.json -o a.svg --span 2 1",
+        "--span 2 1: must be the lower end, then the higher one",
+    ),
+    ("plot sensitivity taps.json -o a.svg --span 0 inf", "--span = inf: is not a finite number"),
+    ("plot sensitivity taps.json -o a.svg --span 1kg 2", '--span = "1kg": is not a frequency'),
+    (
+        "plot sensitivity taps.json -o a.svg --row 2",
+        "--row: belongs to plot response, not to plot sensitivity",
+    ),
+    ("plot response taps.json -o a.svg --row 9", "--row = 9: must be an integer from 1 to 1"),
+    ("plot response taps.json -o a.svg --row 0", "--row = 0: must be an integer from 1 to 1"),
+    ("plot response taps.json -o a.svg --press 0", "--press = 0: must be > 0"),
+    (
+        "plot response taps.json -o a.svg --press 1e9",
+        "--press = 1000000000.0: must be at least 0.001 and at most",
+    ),
+    ("plot response taps.json plain.json -o a.svg", "plot response draws one design, 2 are given"),
+    ("plot bank taps.json -o a.svg", "a bank figure needs a range"),
+    (
+        "plot bank taps.json -o a.svg --over rope-length",
+        "--over: belongs to plot sensitivity, not to plot bank",
+    ),
+]
+
+
+@pytest.fixture
+def workplace(arm, designs, tmp_path):
+    """A folder with good and bad files."""
+    (tmp_path / "folder").mkdir()
+    for name in ("empty.toml", "empty.json"):
+        (tmp_path / name).touch()
+    (tmp_path / "garbage.bin").write_bytes(b"\xff\xfe\x00garbage")
+    shutil.copytree(designs, tmp_path, dirs_exist_ok=True)
+    return tmp_path
+
+
+CASES = [*DESIGN, *FILES, *PLOT]
+
+
+@pytest.mark.parametrize(("line", "message"), CASES, ids=[line for line, _ in CASES])
+def test_wrong_input_is_refused_with_a_message_and_leaves_nothing_behind(run, workplace, line, message):
+    before = snapshot(workplace)
+    done = run(*line.split())
+    assert message in done.err
+    assert (done.code, done.out) == (2, "")
+    assert "Traceback" not in done.err
+    assert snapshot(workplace) == before
+
+
+def test_all_that_is_wrong_with_the_options_is_said_at_once(run):
+    done = run("design", "zv", "--frequency", -1, "--damping", 2, "--tick", 2, "--name", "int")
+    lines = done.err.splitlines()
+    assert [line.split()[1] for line in lines] == ["--frequency", "--damping", "--tick", "--name"]
+    assert all(line.startswith("error: ") for line in lines)
+
+
+def test_all_that_is_wrong_with_several_files_is_said_at_once(run, workplace):
+    lines = run("plot", "sensitivity", "empty.json", "none.json", "folder", "-o", "a.svg").err.splitlines()
+    assert [line.split()[1] for line in lines] == ["empty.json:", "none.json:", "folder:"]
+
+
+BAD_MACHINES = {
+    "a negative length": ('"9 ft"', '"-9 ft"', '[crane] rope_length[0] = "-9 ft": must be > 0'),
+    "a zero length": ('"9 ft"', "0", "[crane] rope_length[0] = 0: must be > 0"),
+    "an unknown key": ("acceleration", "accelleration", "accelleration: unknown key; nearest: acceleration"),
+    "a wrong unit": (
+        '"10 ms"',
+        '"10 kg"',
+        '[controller] tick = "10 kg": is not a time: allowed units are s, ms',
+    ),
+    "an infinite number": (
+        "max_speed = 0.5",
+        "max_speed = inf",
+        "[crane] max_speed = inf: is not a finite number",
+    ),
+    "not a number": ("max_speed = 0.5", "max_speed = nan", "[crane] max_speed = nan: is not a finite number"),
+    "a tick of 2 s": ('"10 ms"', "2", "[controller] tick = 2: must be at least 1e-06 and at most 1 s"),
+    "a C keyword": ("srtc_gantry", "int", 'name = "int": is a reserved word of C, C++ or Structured Text'),
+    "an ST keyword": (
+        "srtc_gantry",
+        "lreal",
+        'name = "lreal": is a reserved word of C, C++ or Structured Text',
+    ),
+    "an unknown family": ("um-zv", "um-zw", 'family = "um-zw": unknown family; nearest: um-zv'),
+    "a damping beyond the family's end": (
+        '"um-zv"\nrope_length = "24 ft"',
+        '"ei3"\nrope_length = "24 ft"\ndamping_ratio = 0.5',
+        '[[row]] 1 ("long"): ei3 at tolerance 0.05 exists up to damping_ratio 0.27',
+    ),
+    "int32 without counts": ('"double"', '"int32"', "[drive] counts_per_m_s: missing"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "message"), BAD_MACHINES.values(), ids=BAD_MACHINES)
+def test_a_bad_machine_file_builds_nothing(run, gantry, tmp_path, old, new, message):
+    text = gantry.read_text()
+    assert old in text
+    gantry.write_text(text.replace(old, new))
+    before = snapshot(tmp_path)
+    done = run("build", gantry.name, "--json")
+    assert message in done.err
+    assert done.err.startswith("error: gantry.toml: ")
+    assert (done.code, done.out) == (2, "")
+    assert snapshot(tmp_path) == before
