@@ -47,7 +47,7 @@ def unknown_files(directory: Path, known: Collection[str]) -> Iterator[str]:
 
 
 def check_directory(directory: Path, known: Collection[str]) -> None:
-    """Refuse an output directory that is a file, or that holds what the generator does not make.
+    """Refuse an output directory that cannot be one, or that holds what the generator does not make.
 
     Parameters
     ----------
@@ -62,6 +62,8 @@ def check_directory(directory: Path, known: Collection[str]) -> None:
         Naming what is in the way.
     """
     _refuse_file(directory)
+    if not os.access(_nearest(directory), os.W_OK | os.X_OK):
+        raise FileError([f"{directory}: cannot be written: permission denied"])
     reason = "is not a file that swayless makes here; move it away or choose another output directory"
     unknown = islice(unknown_files(directory, known), MOST_UNKNOWN + 1)
     found = [f"{directory / path}: {reason}" for path in unknown]
@@ -72,8 +74,14 @@ def check_directory(directory: Path, known: Collection[str]) -> None:
 
 
 def _refuse_file(directory: Path) -> None:
-    if directory.exists() and not directory.is_dir():
-        raise FileError([f"{directory}: is a file, not a directory; choose another with -o"])
+    nearest = _nearest(directory)
+    if not nearest.is_dir():
+        raise FileError([f"{nearest}: is a file, not a directory; choose another with -o"])
+
+
+def _nearest(directory: Path) -> Path:
+    """Give the directory, or what is there of the way to it."""
+    return next(path for path in (directory, *directory.absolute().parents) if path.exists())
 
 
 def write_files(directory: Path, files: Mapping[str, bytes]) -> None:

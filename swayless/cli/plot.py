@@ -99,7 +99,7 @@ def plot(
     Examples
     --------
     swayless plot sensitivity zv.json ei.json -o compare.svg
-    swayless plot sensitivity crane.json --over rope-length --span 3 9 -o rope.png
+    swayless plot sensitivity crane.json --over rope-length --span 3 9 -o r.png
     swayless plot response crane.json --press "4 s" --row 2 -o response.pdf
     swayless plot bank crane.json -o bank.svg
     """
