@@ -4,8 +4,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from swayless.controller import CommandShaper
-from tests.properties.strategies import blocks, examples, positive_rows, segments
-from tests.unit.controller.blocks import convolved, press, ramped_commands, run
+from tests.properties.strategies import NUMBERS, blocks, examples, positive_rows, segments
+from tests.unit.controller.blocks import ZVD, block, convolved, press, ramped_commands, run
+
+THIRDS = ((0, 1 / 3), (1, 1 / 3), (3, 1 / 3))
 
 single_rows = blocks(positive_rows(), most_rows=1)
 
@@ -42,6 +44,17 @@ def test_settled_means_that_the_reference_is_the_command_and_none_has_come_for_t
         reached = commands[k : k + settings.longest_delay_ticks + 2]
         assert out.settled == (len(set(reached[1:])) == 1)
         assert not out.settled or out.reference == reached[-1]
+
+
+@examples(100)
+@given(st.floats(-1.0, 1.0, allow_subnormal=False), st.sampled_from(NUMBERS))
+def test_reference_is_exactly_the_command_once_it_has_rested_for_the_delay_of_its_row(ratio, number):
+    settings = block(THIRDS, ZVD, number=number, acceleration_m_s2=None)
+    inputs = press(settings, ratio, THIRDS[-1][0] + 1)
+    out = run(CommandShaper(settings), inputs)[-1]
+    # Three rounded products of a third would not sum to it: the block rests, long before it is settled.
+    assert out.reference == inputs[0].command
+    assert out.settled == (inputs[0].command == 0)
 
 
 @examples(40)

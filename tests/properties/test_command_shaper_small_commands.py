@@ -86,6 +86,23 @@ def test_in_row_0_there_is_no_inching_and_nothing_waits(number, unshaped):
     assert [out.reference for out in outs] == ramped_commands(block(ZVD, number=number), inputs)
 
 
+@pytest.mark.parametrize("number", NUMBERS)
+def test_inching_shows_that_it_is_in_use_and_no_row_waits_for_it(number):
+    settings = block(ZVD, UM_ZV, number=number, **INCHING)
+    outs = run(CommandShaper(settings), press(settings, 0.1, 30, selector=2))
+    assert all(out.status & Status.INCHING and out.status & Status.UNSHAPED for out in outs)
+    assert not any(out.status & Status.ROW_WAITS for out in outs)
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("stop", ["quick_stop", "emergency_stop"])
+def test_a_stop_ends_inching(number, stop):
+    settings = block(ZVD, number=number, **INCHING)
+    shaper = CommandShaper(settings)
+    assert run(shaper, press(settings, 0.1, 3))[-1].status & Status.INCHING
+    assert not run(shaper, press(settings, 0.1, 1, **{stop: True}))[0].status & Status.INCHING
+
+
 @examples(60)
 @given(st.data(), st.floats(-1.0, 1.0), st.floats(0.0, 0.49))
 def test_noise_below_half_the_resolution_comes_to_rest_at_any_level(data, level, height):
@@ -114,6 +131,17 @@ def test_0_and_the_maximum_always_arrive_whatever_the_resolution(data, ratio):
     assert out.reference == command_of(settings, min(ratio, 1.0))
 
 
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_the_maximum_arrives_also_from_within_the_resolution_of_it(number, direction):
+    settings = block(ZVD, number=number, **RESOLUTION)
+    near = direction * (1.0 - 0.5 * RESOLUTION_M_S / MAX_SPEED_M_S)
+    inputs = press(settings, near, 30) + press(settings, direction, 30)
+    outs = run(CommandShaper(settings), inputs)
+    assert outs[29].reference == command_of(settings, near)
+    assert outs[-1].reference == command_of(settings, direction)
+
+
 @examples(40)
 @given(st.data())
 def test_a_command_is_new_only_when_it_changes_by_the_resolution(data):
@@ -130,13 +158,12 @@ def test_a_command_is_new_only_when_it_changes_by_the_resolution(data):
         assert command == held
 
 
-@examples(40)
-@given(st.data())
-def test_commands_that_count_as_0_release_a_stop(data):
-    settings = block(ZVD, number=data.draw(st.sampled_from(NUMBERS)), minimum_speed_m_s=0.05, **RESOLUTION)
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("small", [0.0, 0.09, -0.09, 0.019])
+def test_commands_that_count_as_0_release_a_stop(number, small):
+    settings = block(ZVD, number=number, minimum_speed_m_s=0.05, **RESOLUTION)
     shaper = CommandShaper(settings)
     run(shaper, press(settings, 1.0, 30) + press(settings, 1.0, 1, emergency_stop=True))
-    small = data.draw(st.sampled_from([0.0, 0.09, -0.09, 0.019]))  # of the maximum: below the minimum
     out = run(shaper, press(settings, small, 1))[0]
     assert not out.status & Status.EMERGENCY_STOP
     assert bool(out.status & Status.BELOW_MINIMUM) == (small != 0.0)

@@ -49,7 +49,7 @@ def test_taps_hold_the_band_that_the_ideal_shaper_promises(
     assert taps.delays_ticks[-1] <= math.ceil(shaper.duration_s / tick_s - 1e-6) + EXTRA_TICKS
     if FAMILIES[family].zero_orders is not None:
         at_mode = _ratio(taps.times_s, taps.amplitudes, frequency_hz, damping_ratio)
-        assert at_mode[0] < 1e-9  # an amplitude below 1e-9 may have been dropped
+        assert at_mode[0] < 2e-9  # an equality counts as met within 1e-9, and a zero is two of them
     levels = np.cumsum(np.rint(taps.amplitudes * 1e12))
     assert levels.min() >= 0
     assert levels.max() <= 10**12
