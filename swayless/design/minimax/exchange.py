@@ -21,13 +21,11 @@ DROPPED_AMPLITUDE = 1e-9
 """Amplitudes below this are rounding of the linear program: their times are dropped."""
 
 MISSED_EQUALITY = 1e-9
-"""Equalities missed by more cannot be met; HiGHS leaves 1e-10."""
+"""Equalities that settled amplitudes miss by more cannot be met."""
 
-_SHORTFALL = (
-    1e-7  # equalities missed by more in the linear program cannot be met: well above what HiGHS leaves
-)
+_SHORTFALL = 3e-9  # the same for the linear program: HiGHS leaves 1e-9
 _GAP = 1e-8  # broken half-planes and prices below this, in units of the target, end the exchange
-_AT_LIMIT = 1e-9  # partial sums this near 0 or 1 are at the limit
+_AT_LIMIT = 1e-8  # amplitudes and partial sums this near their limit are at it: HiGHS leaves 1e-9
 _SMALLEST_UNIT = 1e-3  # residual vibration that the program counts as 1 when the target is smaller
 _FIRST_FREQUENCIES = 9  # of the first half-planes, four phases each: a frame that the exchange fills in
 _ROUNDS = 500  # far above the 30 or so of the slowest designs: a bound against cycling

@@ -16,7 +16,7 @@ from swayless.errors import DesignError
 _SHORTFALL_COST = 1e4
 """Price of missing an equality, in objective units: far above any dual value of a design that exists."""
 
-_HIGHS_TOLERANCE = 1e-9  # the finest that HiGHS accepts
+_HIGHS_TOLERANCE = 1e-9  # ten times the finest that HiGHS accepts, on which it gives up on very fine ticks
 
 
 class AmplitudeRule(enum.Enum):
