@@ -1,0 +1,13 @@
+"""Robust design with a proof of optimality: the shortest shaper for a band, and the widest band for a duration.
+
+Not for: cranes and their rope lengths (`swayless.machine`), nor for named families (`families`).
+"""
+
+from swayless.design.robust.specified import (
+    Amplitudes,
+    RobustDesign,
+    fixed_duration,
+    specified_insensitivity,
+)
+
+__all__ = ["Amplitudes", "RobustDesign", "fixed_duration", "specified_insensitivity"]

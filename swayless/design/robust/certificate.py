@@ -1,0 +1,92 @@
+"""The proof that no shaper does better: a dual polynomial, bounded over continuous time.
+
+Not for: finding it (`search`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from swayless.design.minimax import AmplitudeRule
+from swayless.design.minimax.response import ComplexArray
+from swayless.design.shaper import FloatArray
+
+_CELLS_PER_CYCLE = 16
+_SLACK = 1e-9  # of sizes of order 1: what the bound may lose against the true one
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """p(t) = Re sum c_k exp(f_k turn_k (t - T)), sum |c_k| <= 1, whose values prove a worst residual.
+
+    Take any shaper of duration t_n <= T. At f_k it leaves V_k = |exp(-z w t_n) sum A_i exp(f_k turn_k t_i)|, and
+    exp(-z w t_n) >= exp(-z w T). So max V_k >= sum |c_k| V_k >= sum A_i p(t_i): whatever the amplitudes are, their
+    worst residual vibration is at least the least value of that sum that the sign rule allows. Damping makes no
+    difference, because p counts the decay up to T, which is the most that a shorter design may have.
+
+    Parameters
+    ----------
+    coefficients : ndarray of complex, shape (m,)
+        c_k; their sizes sum to at most 1.
+    rates : ndarray of complex, shape (m,)
+        f_k turn_k.
+    duration : float
+        T.
+    """
+
+    coefficients: ComplexArray
+    rates: ComplexArray
+    duration: float
+
+    def _derivative_bound(self, order: int) -> float:
+        """Bound the size of a derivative of p at all times up to T: |exp(rate (t - T))| <= 1 there."""
+        return float(np.abs(self.coefficients) @ np.abs(self.rates) ** order)
+
+    def __call__(self, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Values and slopes at times."""
+        terms = np.exp(np.multiply.outer(times - self.duration, self.rates)) * self.coefficients
+        return terms.sum(axis=-1).real, (terms @ self.rates).real
+
+    def bound(self, rule: AmplitudeRule) -> float:
+        """Least worst residual vibration that any shaper of the rule and of duration <= T can leave.
+
+        Positive amplitudes sum to 1, so sum A_i p(t_i) >= min p. Bounded ones give, by parts, p(T) - the integral
+        of p'(t) times the partial sum up to t, which is at least p(T) - the sum of all rises of p.
+        """
+        return self._least() if rule is AmplitudeRule.POSITIVE else self._end_less_rises()
+
+    def _cells(self) -> tuple[FloatArray, float]:
+        """Left ends of equal cells that cover 0 .. T, and their width."""
+        cycles = float(np.abs(self.rates).max()) / (2.0 * np.pi) * self.duration
+        edges, width = np.linspace(0.0, self.duration, 9 + int(_CELLS_PER_CYCLE * cycles), retstep=True)
+        return edges[:-1], float(width)
+
+    def _least(self) -> float:
+        """Minimum of p over 0 .. T from below: in a cell it falls at most |p''| width^2 / 8 below both ends."""
+        left, width = self._cells()
+        proven = sampled = np.inf
+        while left.size:
+            ends = np.minimum(self(left)[0], self(left + width)[0])
+            sampled = min(sampled, float(ends.min()))
+            lowest = ends - self._derivative_bound(2) * width**2 / 8.0
+            unsure = lowest < sampled - _SLACK
+            proven = min(proven, float(lowest[~unsure].min(initial=np.inf)))
+            left, width = np.concatenate([left[unsure], left[unsure] + width / 2.0]), width / 2.0
+        return proven
+
+    def _end_less_rises(self) -> float:
+        """p(T) less its rises, from below: slopes stray at most the third derivative times width^2 / 8."""
+        left, width = self._cells()
+        proven = float(self(np.array([self.duration]))[0][0])
+        while True:
+            (value, slope), (after, slope_after) = self(left), self(left + width)
+            stray = self._derivative_bound(3) * width**2 / 8.0
+            steepest = np.maximum(slope, slope_after) + stray
+            unsure = (steepest > 0.0) & (np.minimum(slope, slope_after) < stray)
+            proven -= float(np.maximum(after - value, 0.0)[~unsure].sum())
+            largest_rises = float(steepest[unsure].sum()) * width
+            if largest_rises < _SLACK:
+                return proven - largest_rises
+            left, width = np.concatenate([left[unsure], left[unsure] + width / 2.0]), width / 2.0
