@@ -14,6 +14,7 @@ from swayless.design.minimax.response import ComplexArray
 from swayless.design.shaper import FloatArray
 
 _CELLS_PER_CYCLE = 16
+_SAMPLES_PER_CYCLE = 256
 _SLACK = 1e-9  # of sizes of order 1: what the bound may lose against the true one
 
 
@@ -40,6 +41,22 @@ class Certificate:
     rates: ComplexArray
     duration: float
 
+    def dips(self) -> FloatArray:
+        """Sampled local minima of p, the ends included."""
+        left, width = self._cells(_SAMPLES_PER_CYCLE)
+        times = np.append(left, self.duration)
+        value = self(times)[0]
+        low = (value <= np.append(np.inf, value[:-1])) & (value <= np.append(value[1:], np.inf))
+        return times[low]
+
+    def extremes(self) -> FloatArray:
+        """Places inside 0 .. T where the slope of p changes sign, by linear interpolation."""
+        left, width = self._cells(_SAMPLES_PER_CYCLE)
+        slope = self(np.append(left, self.duration))[1]
+        at = np.flatnonzero(slope[:-1] * slope[1:] < 0.0)
+        places: FloatArray = left[at] + width * slope[at] / (slope[at] - slope[at + 1])
+        return places
+
     def _derivative_bound(self, order: int) -> float:
         """Bound the size of a derivative of p at all times up to T: |exp(rate (t - T))| <= 1 there."""
         return float(np.abs(self.coefficients) @ np.abs(self.rates) ** order)
@@ -57,10 +74,10 @@ class Certificate:
         """
         return self._least() if rule is AmplitudeRule.POSITIVE else self._end_less_rises()
 
-    def _cells(self) -> tuple[FloatArray, float]:
+    def _cells(self, per_cycle: int = _CELLS_PER_CYCLE) -> tuple[FloatArray, float]:
         """Left ends of equal cells that cover 0 .. T, and their width."""
         cycles = float(np.abs(self.rates).max()) / (2.0 * np.pi) * self.duration
-        edges, width = np.linspace(0.0, self.duration, 9 + int(_CELLS_PER_CYCLE * cycles), retstep=True)
+        edges, width = np.linspace(0.0, self.duration, 9 + int(per_cycle * cycles), retstep=True)
         return edges[:-1], float(width)
 
     def _least(self) -> float:

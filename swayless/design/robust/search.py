@@ -24,6 +24,8 @@ _ACTIVE = 2e-3  # amplitudes and weights below this in a coarse optimum are its 
 _ADMITTED = 1e-2  # amplitude or weight with which a newcomer starts
 _TOUCH = 1e-8  # relative: peaks and dips beyond the worst by more are not yet covered
 _FARTHEST = 0.3  # relative: solutions farther from their start belong to another structure
+_COVERED = 1e-6  # relative: how far the certificate may stay below the worst
+_NEWCOMER = 20.0  # times _APART: a dip nearer to an impulse is the impulse's own
 _APART = 1e-3  # in periods of the highest frequency, or in ripples: nearer neighbours are one
 
 
@@ -165,36 +167,28 @@ def _with_peaks(optimum: Optimum, lines: Sequence[Line]) -> tuple[Optimum, bool]
 
 
 def _with_times(optimum: Optimum, rule: AmplitudeRule) -> tuple[Optimum, bool]:
-    times, amplitudes = optimum.times, optimum.amplitudes
+    """Replace impulses that are none and add those that would help, if the certificate is not yet whole."""
     certificate = certificate_of(optimum)
-    highest = float(np.abs(certificate.rates).max()) / (2 * np.pi)
-    grid = np.linspace(0.0, optimum.duration, 17 + int(64 * highest * optimum.duration))
-    value, slope = certificate(grid)
-    if rule is AmplitudeRule.POSITIVE:
-        if (amplitudes <= 0).any() or (np.diff(times) < _APART / highest).any():
-            order = np.argsort(times)
-            times, amplitudes = times[order], amplitudes[order]
-            kept = (amplitudes > 0) & np.append(True, np.diff(times) > _APART / highest)
-            kept[0] = kept[-1] = True
-            return replace(optimum, times=times[kept], amplitudes=np.maximum(amplitudes[kept], 1e-3)), True
-        dip = np.flatnonzero((value[1:-1] <= value[:-2]) & (value[1:-1] <= value[2:])) + 1
-        dip = np.concatenate([[0], dip, [grid.size - 1]])
-        under = dip[value[dip] < optimum.worst * (1.0 - 1e-7)]
-        under = under[np.abs(np.subtract.outer(grid[under], times)).min(axis=1) > 0.02 / highest] if under.size else under
-        if not under.size:
-            return optimum, False
-        order = np.argsort(np.append(times, grid[under]), kind="stable")
-        return replace(
-            optimum,
-            times=np.append(times, grid[under])[order],
-            amplitudes=np.append(amplitudes, np.full(under.size, _ADMITTED))[order],
-        ), True
-    turn = np.flatnonzero(slope[1:-1] * slope[2:] < 0) + 1
-    inner = grid[turn] - slope[turn] * (grid[turn + 1] - grid[turn]) / (slope[turn + 1] - slope[turn])
-    ordered = (np.diff(times) > 0).all()
-    if inner.size == times.size - 2 and ordered and np.abs(inner - times[1:-1]).max(initial=0.0) < 0.05 / highest:
+    positive = rule is AmplitudeRule.POSITIVE
+    apart = 2.0 * np.pi * _APART / float(np.abs(certificate.rates).max())
+    kept = (optimum.amplitudes > 0.0) if positive else np.full(optimum.times.size, True)
+    kept &= np.diff(optimum.times, prepend=-1.0) > (apart if positive else 0.0)
+    kept[[0, -1]] = True
+    if not kept.all() and positive:
+        return _with_impulses(optimum, optimum.times[kept], optimum.amplitudes[kept])
+    if kept.all() and certificate.bound(rule) >= optimum.worst * (1.0 - _COVERED):
         return optimum, False
-    if inner.size % 2 == 0:
-        inner = inner[:-1] if abs(inner[-1]-grid[-1]) < inner[0] else inner[1:]
-    times = np.concatenate([[0.0], inner, [optimum.duration]])
-    return replace(optimum, times=times, amplitudes=(-1.0) ** np.arange(times.size)), True
+    times = certificate.dips() if positive else certificate.extremes()
+    if not positive:
+        times = np.concatenate([[0.0], times, [optimum.duration]])
+        return _with_impulses(optimum, times, (-1.0) ** np.arange(times.size))
+    far = np.abs(np.subtract.outer(times, optimum.times)).min(axis=1) > _NEWCOMER * apart
+    new = times[far & (certificate(times)[0] < optimum.worst * (1.0 - _COVERED))]
+    admitted = np.full(new.size, _ADMITTED)
+    return _with_impulses(optimum, np.append(optimum.times, new), np.append(optimum.amplitudes, admitted))
+
+
+def _with_impulses(optimum: Optimum, times: FloatArray, amplitudes: FloatArray) -> tuple[Optimum, bool]:
+    """Give an optimum other impulses, in order."""
+    order = np.argsort(times, kind="stable")
+    return replace(optimum, times=times[order], amplitudes=amplitudes[order]), True
