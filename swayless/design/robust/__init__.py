@@ -3,11 +3,21 @@
 Not for: cranes and their rope lengths (`swayless.machine`), nor for named families (`families`).
 """
 
+from swayless.design.robust.bank import cover, cover_with
 from swayless.design.robust.specified import (
     Amplitudes,
     RobustDesign,
     fixed_duration,
+    least_residual,
     specified_insensitivity,
 )
 
-__all__ = ["Amplitudes", "RobustDesign", "fixed_duration", "specified_insensitivity"]
+__all__ = [
+    "Amplitudes",
+    "RobustDesign",
+    "cover",
+    "cover_with",
+    "fixed_duration",
+    "least_residual",
+    "specified_insensitivity",
+]

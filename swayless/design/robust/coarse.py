@@ -48,7 +48,9 @@ class Coarse:
     weights: FloatArray
 
 
-def coarse_optimum(lines: Sequence[Line], duration: float, rule: AmplitudeRule, *, tolerance: float, fineness: int = 1) -> Coarse:
+def coarse_optimum(
+    lines: Sequence[Line], duration: float, rule: AmplitudeRule, *, tolerance: float, fineness: int = 1
+) -> Coarse:
     """Find the amplitudes that leave the least over all lines within a duration.
 
     Without damping a shaper and its mirror image in time leave the same, so that the best one is symmetric:
@@ -68,7 +70,9 @@ def coarse_optimum(lines: Sequence[Line], duration: float, rule: AmplitudeRule, 
     else:
         columns = np.exp(np.multiply.outer(frequency * turn, times - duration))
     positive = rule is AmplitudeRule.POSITIVE
-    centre = least_worst(columns @ amplitudes_of, columns @ start, sum_to_one=positive, resolved=tolerance / 4.0)
+    centre = least_worst(
+        columns @ amplitudes_of, columns @ start, sum_to_one=positive, resolved=tolerance / 4.0
+    )
     amplitudes = start + amplitudes_of @ centre.variables
     return Coarse(centre.worst, times, amplitudes, frequency, turn, centre.weights)
 
@@ -76,7 +80,11 @@ def coarse_optimum(lines: Sequence[Line], duration: float, rule: AmplitudeRule, 
 def _frequencies(line: Line, duration: float) -> FloatArray:
     """Spread frequencies over a line, its ends included."""
     count = math.ceil(_FREQUENCIES_PER_RIPPLE * duration * (line.high - line.low))
-    return np.linspace(line.low, line.high, max(_FEWEST, count)) if line.high > line.low else np.array([line.low])
+    return (
+        np.linspace(line.low, line.high, max(_FEWEST, count))
+        if line.high > line.low
+        else np.array([line.low])
+    )
 
 
 def _variables(half: int, rule: AmplitudeRule, *, symmetric: bool) -> tuple[FloatArray, FloatArray]:

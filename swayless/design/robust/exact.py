@@ -22,7 +22,13 @@ _NARROW = 0.02  # log of the bracket's ends: near enough where the residual jump
 _FINEST = 4  # times as many points as usual, where two impulses nearly meet
 _LARGEST_MOVE = 0.4  # in logs, before there is a bracket
 _STEEPNESS = 3.0  # a usual d log(worst) / d log(duration)
-_GAPS = (1e-6, 1e-5, 1e-4, 1e-3, 3e-3)  # relative: how much shorter a duration is tried to be proved infeasible
+_GAPS = (
+    1e-6,
+    1e-5,
+    1e-4,
+    1e-3,
+    3e-3,
+)  # relative: how much shorter a duration is tried to be proved infeasible
 
 WIDEST_RATIO = 8.0
 """Largest ratio of the band's ends that is solved."""
@@ -57,6 +63,32 @@ def widest(duration: float, damping_ratio: float, tolerance: float, rule: Amplit
         return [Line(1.0, max(1.0, math.exp(-size)), damping_ratio)], duration
 
     return _approach(problem, -0.4, tolerance, Goal.REACH, rule)
+
+
+def worst_at_ends(
+    duration: float, damping_ratio: float, tolerance: float, rule: AmplitudeRule
+) -> tuple[float, float]:
+    """What a duration leaves, nearly, at frequency 1 alone, and from there to the widest ratio."""
+    lines = ([Line(1.0, high, damping_ratio)] for high in (1.0, WIDEST_RATIO))
+    narrow, wide = (coarse_optimum(line, duration, rule, tolerance=tolerance).worst for line in lines)
+    return narrow, wide
+
+
+def least(lines: Sequence[Line], duration: float, tolerance: float, rule: AmplitudeRule) -> Optimum:
+    """Find the impulses of a duration that leave the least on all lines, given that they can meet a tolerance.
+
+    Raises
+    ------
+    DesignError
+        If no optimum is found.
+    """
+    for fineness in range(1, _FINEST + 1):
+        coarse = coarse_optimum(lines, duration, rule, tolerance=tolerance, fineness=fineness)
+        guess = first_guess(coarse, lines, rule, coarse.worst, Goal.WORST)
+        optimum = settle(guess, lines, Goal.WORST, rule)
+        if optimum is not None:
+            return optimum
+    raise DesignError(f"no optimum found for {duration:g} periods")
 
 
 def proven_duration(optimum: Optimum, tolerance: float, rule: AmplitudeRule) -> float:

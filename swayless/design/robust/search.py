@@ -59,7 +59,9 @@ def is_near(optimum: Optimum, start: Optimum) -> bool:
     return bool(durations and frequencies)
 
 
-def first_guess(coarse: Coarse, lines: Sequence[Line], rule: AmplitudeRule, worst: float, goal: Goal) -> Optimum | None:
+def first_guess(
+    coarse: Coarse, lines: Sequence[Line], rule: AmplitudeRule, worst: float, goal: Goal
+) -> Optimum | None:
     """Read impulses and peaks off a coarse optimum."""
     positive = rule is AmplitudeRule.POSITIVE
     times, amplitudes = _clusters(coarse) if positive else _switches(coarse)
@@ -68,7 +70,9 @@ def first_guess(coarse: Coarse, lines: Sequence[Line], rule: AmplitudeRule, wors
     bare = Optimum(times, amplitudes, *_no_peaks(), worst)
     peaks = _peaks(bare_like(coarse, bare), lines)
     frequency, turn, moving, value = peaks
-    spot = np.where(coarse.turn[:, np.newaxis] == turn, np.abs(np.subtract.outer(coarse.frequency, frequency)), np.inf)
+    spot = np.where(
+        coarse.turn[:, np.newaxis] == turn, np.abs(np.subtract.outer(coarse.frequency, frequency)), np.inf
+    )
     weights = np.bincount(spot.argmin(axis=1), coarse.weights, frequency.size)
     kept = weights > _ACTIVE * weights.max()
     kept[-1] |= goal is Goal.REACH  # the upper edge is what moves
@@ -138,7 +142,14 @@ def _corrected(optimum: Optimum, lines: Sequence[Line], rule: AmplitudeRule) -> 
     """Drop what has the wrong sign, add what is not covered; say whether anything changed."""
     kept = optimum.weights > 0.0
     if not kept.all():
-        return replace(optimum, frequency=optimum.frequency[kept], turn=optimum.turn[kept], moving=optimum.moving[kept], weights=optimum.weights[kept], phase=optimum.phase[kept]), True
+        return replace(
+            optimum,
+            frequency=optimum.frequency[kept],
+            turn=optimum.turn[kept],
+            moving=optimum.moving[kept],
+            weights=optimum.weights[kept],
+            phase=optimum.phase[kept],
+        ), True
     low = np.array([[l.low, l.high] for l in lines])
     optimum2, c1 = _with_peaks(optimum, lines)
     optimum3, c2 = _with_times(optimum, rule)
@@ -150,7 +161,9 @@ def _with_peaks(optimum: Optimum, lines: Sequence[Line]) -> tuple[Optimum, bool]
     over = np.abs(value) > optimum.worst * (1.0 + _TOUCH)
     if not over.any():
         return optimum, False
-    near = (turn[over][:, None] == optimum.turn) & (np.abs(np.subtract.outer(frequency[over], optimum.frequency)) < _APART)
+    near = (turn[over][:, None] == optimum.turn) & (
+        np.abs(np.subtract.outer(frequency[over], optimum.frequency)) < _APART
+    )
     replaced = near.any(axis=0)
     weight = np.where(near.any(axis=1), (near * optimum.weights).sum(axis=1), _ADMITTED)
     keep = ~replaced
@@ -163,7 +176,14 @@ def _with_peaks(optimum: Optimum, lines: Sequence[Line]) -> tuple[Optimum, bool]
         phase=np.append(optimum.phase[keep], np.angle(value[over])),
     )
     order = np.argsort(merged.frequency, kind="stable")
-    return replace(merged, frequency=merged.frequency[order], turn=merged.turn[order], moving=merged.moving[order], weights=merged.weights[order], phase=merged.phase[order]), True
+    return replace(
+        merged,
+        frequency=merged.frequency[order],
+        turn=merged.turn[order],
+        moving=merged.moving[order],
+        weights=merged.weights[order],
+        phase=merged.phase[order],
+    ), True
 
 
 def _with_times(optimum: Optimum, rule: AmplitudeRule) -> tuple[Optimum, bool]:

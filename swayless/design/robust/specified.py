@@ -14,7 +14,7 @@ import numpy as np
 
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.minimax.response import Response
-from swayless.design.robust.exact import WIDEST_RATIO, proven_duration, shortest, widest
+from swayless.design.robust.exact import WIDEST_RATIO, least, proven_duration, shortest, widest, worst_at_ends
 from swayless.design.robust.lines import Line
 from swayless.design.robust.stationary import Optimum
 from swayless.design.robustness import TOUCH_SLACK, worst_residual
@@ -22,15 +22,17 @@ from swayless.design.shaper import Guarantee, Shaper
 from swayless.errors import DesignError
 from swayless.plant import Band, Mode
 
+TOLERANCES = (0.01, 0.2)
+"""Smallest and largest tolerance that is designed for."""
+
 Amplitudes: TypeAlias = Literal["positive", "bounded", "unity-magnitude"]
 
-_RULES = {
+RULES = {
     "positive": AmplitudeRule.POSITIVE,
     "bounded": AmplitudeRule.BOUNDED,
     "unity-magnitude": AmplitudeRule.BOUNDED,
 }
 _LARGEST_DAMPING_RATIO = 0.2
-_TOLERANCES = (0.01, 0.2)
 _DAMPING_CHECKS = 65  # damping ratios of a range at which a design is checked
 _DAMPING_ROUNDS = 5  # of further damping ratios inside a range
 _SOURCE = "Singhose, Seering and Singer (1996), specified insensitivity; Kriikku et al. (1997), section III"
@@ -175,32 +177,69 @@ def fixed_duration(
     rule = _checked(tolerance, amplitudes)
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise DesignError(f"duration_s = {duration_s!r}: must be finite and > 0")
-    least = specified_insensitivity(
-        Band(low_hz, low_hz), tolerance=tolerance, damping_ratio=damping, amplitudes=amplitudes
-    )
-    if duration_s < least.shaper.duration_s:
+    duration = duration_s * low_hz
+    narrow, wide = worst_at_ends(duration, damping, tolerance, rule)
+    if narrow > tolerance:
         raise DesignError(
-            f"duration_s = {duration_s!r}: no {amplitudes} shaper leaves {100 * tolerance:g} % at {low_hz:g} Hz in "
-            f"less than {least.lower_bound_s:.6g} s"
+            f"duration_s = {duration_s!r}: too short, {amplitudes} shapers leave {100 * narrow:.3g} % at "
+            f"{low_hz:g} Hz alone; a longer one, or a larger tolerance than {tolerance:g}, does"
         )
-    most = specified_insensitivity(
-        Band(low_hz, WIDEST_RATIO * low_hz), tolerance=tolerance, damping_ratio=damping, amplitudes=amplitudes
-    )
-    if duration_s >= most.shaper.duration_s:
+    if wide <= tolerance:
         raise DesignError(
-            f"duration_s = {duration_s!r}: {most.shaper.duration_s:.6g} s hold {low_hz:g} to "
-            f"{WIDEST_RATIO * low_hz:g} Hz already; ask for that band instead"
+            f"duration_s = {duration_s!r}: enough for {low_hz:g} to {WIDEST_RATIO * low_hz:g} Hz and more; ask "
+            "for the shortest shaper of the band you need instead"
         )
-    optimum = widest(duration_s * low_hz, damping, tolerance, rule)
+    optimum = widest(duration, damping, tolerance, rule)
     band = Band(low_hz, low_hz * float(optimum.frequency[-1]))
     bound = proven_duration(optimum, tolerance, rule)
     shaper = _shaper(optimum, band, damping, damping, tolerance, f"fd-{amplitudes}")
     return RobustDesign(shaper, bound / low_hz, (damping, damping))
 
 
-def _shaper(
-    optimum: Optimum, band: Band, low: float, high: float, tolerance: float, family: str
-) -> Shaper:
+def least_residual(
+    duration_s: float, band: Band, *, damping_ratio: float = 0.0, amplitudes: Amplitudes = "positive"
+) -> RobustDesign:
+    """Design the shaper of a given duration that leaves the least worst residual over a band.
+
+    Parameters
+    ----------
+    duration_s : float
+        Time of the last impulse, > 0.
+    band : Band
+        Undamped natural frequencies, high_hz / low_hz at most 8.
+    damping_ratio : float
+        Over the whole band, 0 to 0.2.
+    amplitudes : {"positive", "bounded", "unity-magnitude"}
+        Sign rule, as for `specified_insensitivity`.
+
+    Returns
+    -------
+    RobustDesign
+        The tolerance of its guarantee is the least there is.
+
+    Raises
+    ------
+    DesignError
+        If a value is out of range, or no optimum is found.
+
+    Examples
+    --------
+    >>> design = least_residual(1.0, Band(0.8003, 1.1997))
+    >>> round(design.shaper.guarantee.tolerance, 4)
+    0.05
+    """
+    damping, _ = _damping_range(damping_ratio)
+    rule = _checked(TOLERANCES[0], amplitudes)
+    if not (math.isfinite(duration_s) and duration_s > 0.0):
+        raise DesignError(f"duration_s = {duration_s!r}: must be finite and > 0")
+    lines = [Line(1.0, band.high_hz / band.low_hz, damping)]
+    optimum = least(lines, duration_s * band.low_hz, TOLERANCES[0], rule)
+    bound = proven_duration(optimum, optimum.worst, rule)
+    shaper = _shaper(optimum, band, damping, damping, optimum.worst, f"fd-{amplitudes}")
+    return RobustDesign(shaper, bound / band.low_hz, (damping, damping))
+
+
+def _shaper(optimum: Optimum, band: Band, low: float, high: float, tolerance: float, family: str) -> Shaper:
     """Give impulses their units, and prove on these numbers that they hold the band."""
     mode = Mode(math.sqrt(band.low_hz * band.high_hz), low)
     times_s, amplitudes = optimum.times / band.low_hz, optimum.amplitudes / optimum.amplitudes.sum()
@@ -230,7 +269,9 @@ def _held_between(optimum: Optimum, lines: Sequence[Line], tolerance: float, rul
             goal *= tolerance / worst * (1.0 - TOUCH_SLACK)
         lines = [*lines, replace(low, damping_ratio=damping)]
         optimum = shortest(lines, goal, rule)
-    raise DesignError(f"damping ratios {low.damping_ratio:g} to {high.damping_ratio:g} leave {100 * worst:.6g} %")
+    raise DesignError(
+        f"damping ratios {low.damping_ratio:g} to {high.damping_ratio:g} leave {100 * worst:.6g} %"
+    )
 
 
 def _worst_on(optimum: Optimum, line: Line) -> float:
@@ -257,9 +298,9 @@ def _damping_range(damping_ratio: float | tuple[float, float]) -> tuple[float, f
 
 def _checked(tolerance: float, amplitudes: str) -> AmplitudeRule:
     """Check the tolerance, and find the rule by its name."""
-    lowest, highest = _TOLERANCES
+    lowest, highest = TOLERANCES
     if not lowest <= tolerance <= highest:
         raise DesignError(f"tolerance = {tolerance!r}: must be {lowest:g} to {highest:g}")
-    if amplitudes not in _RULES:
-        raise DesignError(f"amplitudes = {amplitudes!r}: must be one of {', '.join(_RULES)}")
-    return _RULES[amplitudes]
+    if amplitudes not in RULES:
+        raise DesignError(f"amplitudes = {amplitudes!r}: must be one of {', '.join(RULES)}")
+    return RULES[amplitudes]

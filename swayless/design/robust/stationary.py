@@ -16,7 +16,9 @@ from swayless.design.minimax.response import ComplexArray
 from swayless.design.shaper import FloatArray
 
 _STEPS = 20  # four to eight are usual
-_CONVERGED = 1e-10  # largest last step, in periods and ratios: Newton squares what is left, which is then rounding
+_CONVERGED = (
+    1e-10  # largest last step, in periods and ratios: Newton squares what is left, which is then rounding
+)
 _LARGEST_STEP = 0.05  # in periods of the highest frequency, and in ripples of the response
 
 
@@ -147,16 +149,16 @@ class _Layout:
         amplitudes, lags, weights, phase, frequency, _, worst = (point[part] for part in self.parts)
         times = np.append(lags, 0.0) - lags[0]
         scaled = weights / np.abs(weights).sum()
-        return Optimum(
-            times, amplitudes, frequency, start.turn, start.moving, scaled, phase, float(worst[0])
-        )
+        return Optimum(times, amplitudes, frequency, start.turn, start.moving, scaled, phase, float(worst[0]))
 
     def derivatives(self, point: FloatArray) -> tuple[FloatArray, FloatArray]:
         """First derivatives, which must vanish, and second ones, in the free unknowns."""
         slope, terms = self._gradient(point)
         return slope[self.free], self._curvature(point, *terms)[np.ix_(self.free, self.free)]
 
-    def _gradient(self, point: FloatArray) -> tuple[FloatArray, tuple[ComplexArray, ComplexArray, ComplexArray]]:
+    def _gradient(
+        self, point: FloatArray
+    ) -> tuple[FloatArray, tuple[ComplexArray, ComplexArray, ComplexArray]]:
         amplitudes, lags, weights, phase, frequency, price, worst = (point[part] for part in self.parts)
         lag = np.append(lags, 0.0)
         rate = (frequency * self.optimum_start.turn)[:, np.newaxis]
