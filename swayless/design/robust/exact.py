@@ -12,11 +12,11 @@ from dataclasses import replace
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.robust.coarse import coarse_optimum
 from swayless.design.robust.lines import Line
-from swayless.design.robust.search import certificate_of, first_guess, is_near, settle
+from swayless.design.robust.search import candidates, certificate_of, feasible, first_guess, is_near, settle
 from swayless.design.robust.stationary import Goal, Optimum, polish
 from swayless.errors import DesignError
 
-_TRIALS = 24  # of durations or edges; two or three are usual
+_TRIALS = 16  # of durations or edges; two or three are usual
 _NEAR = 0.15  # log of the worst residual over the tolerance, within which the structure may be the final one
 _NARROW = 0.02  # log of the bracket's ends: near enough where the residual jumps
 _FINEST = 4  # times as many points as usual, where two impulses nearly meet
@@ -85,26 +85,32 @@ def least(lines: Sequence[Line], duration: float, tolerance: float, rule: Amplit
     for fineness in range(1, _FINEST + 1):
         coarse = coarse_optimum(lines, duration, rule, tolerance=tolerance, fineness=fineness)
         guess = first_guess(coarse, lines, rule, coarse.worst, Goal.WORST)
-        optimum = settle(guess, lines, Goal.WORST, rule)
+        optimum = settle(guess, lines, Goal.WORST, rule, thorough=fineness > 1)
         if optimum is not None:
             return optimum
     raise DesignError(f"no optimum found for {duration:g} periods")
 
 
-def proven_duration(optimum: Optimum, tolerance: float, rule: AmplitudeRule) -> float:
-    """Find a duration that is proved too short, as near to the optimum's as the proof goes.
+def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, rule: AmplitudeRule) -> float:
+    """Find a duration that is proved too short for the lines, as near to the optimum's as the proof goes.
 
     Raises
     ------
     DesignError
         If nothing within 0.3 % can be proved.
     """
-    for gap in _GAPS:
-        shorter = replace(optimum, times=optimum.times * (1.0 - gap))
-        best = polish(shorter, Goal.WORST, rule)
-        if best is not None and is_near(best, shorter) and certificate_of(best).bound(rule) > tolerance:
-            return shorter.duration
-    raise DesignError(f"no duration within {_GAPS[-1]:.1%} of {optimum.duration!r} is proved too short")
+    shorter = [replace(optimum, times=optimum.times * (1.0 - gap)) for gap in _GAPS]
+    for start in (start for each in shorter for start in candidates(each, Goal.WORST)):
+        best = polish(start, Goal.WORST, rule)
+        if best is not None and is_near(best, start) and certificate_of(best).bound(rule) > tolerance:
+            return start.duration
+    for each in shorter:
+        coarse = coarse_optimum(lines, each.duration, rule, tolerance=tolerance, fineness=_FINEST)
+        if coarse.certificate.bound(rule) > tolerance:
+            return each.duration
+    raise DesignError(
+        f"no duration within {_GAPS[-1]:.1%} of {optimum.duration:.6g} periods is proved too short"
+    )
 
 
 def _approach(
@@ -126,12 +132,16 @@ def _approach(
             under = min(under, (size, excess))
         width = under[0] - over[0]
         if abs(excess) < _NEAR or width < _NARROW:
-            optimum = settle(first_guess(coarse, lines, rule, tolerance, goal), lines, goal, rule)
+            guess = first_guess(coarse, lines, rule, tolerance, goal)
+            optimum = settle(guess, lines, goal, rule, thorough=fineness > 1)
             if optimum is not None:
                 return optimum
             fineness = min(fineness + 1, _FINEST)
         size = _next_size(size, excess, over, under, halve=trial % 3 == 2)
-    raise DesignError(f"no optimum found in {_TRIALS} trials, the last of {duration:g} periods")
+    optimum = feasible(first_guess(coarse, lines, rule, tolerance, goal), lines, goal, rule)
+    if optimum is None:
+        raise DesignError(f"no optimum found in {_TRIALS} trials, the last of {duration:g} periods")
+    return optimum
 
 
 def _next_size(

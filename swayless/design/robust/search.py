@@ -7,12 +7,13 @@ and its certificate at every time: then no design is better, however it was foun
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swayless.design.minimax import AmplitudeRule
-from swayless.design.minimax.response import Response
+from swayless.design.minimax.response import ComplexArray, Response
 from swayless.design.robust.certificate import Certificate
 from swayless.design.robust.coarse import Coarse
 from swayless.design.robust.lines import Line
@@ -26,20 +27,72 @@ _TOUCH = 1e-8  # relative: peaks and dips beyond the worst by more are not yet c
 _FARTHEST = 0.3  # relative: solutions farther from their start belong to another structure
 _COVERED = 1e-6  # relative: how far the certificate may stay below the worst
 _NEWCOMER = 20.0  # times _APART: a dip nearer to an impulse is the impulse's own
+_TINY = 1e-300  # no weight at all proves nothing, but divides by no zero
+_TRIED = 3  # of the lightest peaks, when one of them may be too many
+_AT_END = 1e-9  # relative: peaks this near an end of a line are at it
 _APART = 1e-3  # in periods of the highest frequency, or in ripples: nearer neighbours are one
 
 
 def certificate_of(optimum: Optimum) -> Certificate:
     """Read the dual polynomial off the weights and phases of the peaks."""
     weights = np.maximum(optimum.weights, 0.0)
-    coefficients = weights / weights.sum() * np.exp(-1j * optimum.phase)
+    coefficients = weights / max(float(weights.sum()), _TINY) * np.exp(-1j * optimum.phase)
     return Certificate(coefficients, optimum.frequency * optimum.turn, optimum.duration)
 
 
-def settle(start: Optimum | None, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule) -> Optimum | None:
+def settle(
+    start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule, *, thorough: bool = False
+) -> Optimum | None:
     """Polish, check and correct until the conditions hold everywhere; None if they do not come to."""
-    if start is None:
-        return None
+    for candidate in candidates(start, goal) if thorough else [start]:
+        optimum = _settled(candidate, lines, goal, rule)
+        if optimum is not None:
+            return optimum
+    return None
+
+
+def feasible(start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule) -> Optimum | None:
+    """Polish until the tolerance is held, whether or not that is proved to be the best; None if it is not."""
+    for candidate in candidates(start, goal):
+        optimum = polish(candidate, goal, rule)
+        if optimum is None or not is_near(optimum, candidate):
+            continue
+        if goal is Goal.REACH:
+            lines = [replace(line, high=float(optimum.frequency[-1])) for line in lines]
+        positive = rule is not AmplitudeRule.POSITIVE or optimum.amplitudes.min() > 0.0
+        worst = float(np.abs(peaks_of(optimum.times, optimum.amplitudes, lines).value).max())
+        if positive and np.diff(optimum.times).min() > 0.0 and worst <= optimum.worst * (1.0 + _TOUCH):
+            return optimum
+    return None
+
+
+def candidates(start: Optimum, goal: Goal) -> list[Optimum]:
+    """List a start, and the same without one of its lightest peaks.
+
+    Where a design happens to touch the worst once more than it must (an EI shaper does), weights are not unique
+    and Newton's method is lost with all of them. The upper edge stays where it is what moves.
+    """
+    droppable = start.weights[:-1] if goal is Goal.REACH else start.weights
+    if start.weights.size == 1:
+        return [start]
+    lightest = np.argsort(droppable, kind="stable")[:_TRIED]
+    return [start, *(with_peaks(start, np.arange(start.weights.size) != peak) for peak in lightest)]
+
+
+def with_peaks(optimum: Optimum, kept: NDArray[np.bool_] | NDArray[np.intp]) -> Optimum:
+    """Keep some peaks of an optimum, or put them in another order."""
+    return replace(
+        optimum,
+        frequency=optimum.frequency[kept],
+        turn=optimum.turn[kept],
+        moving=optimum.moving[kept],
+        weights=optimum.weights[kept],
+        phase=optimum.phase[kept],
+    )
+
+
+def _settled(start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule) -> Optimum | None:
+    """Settle from one start."""
     for _ in range(_ROUNDS):
         optimum = polish(start, goal, rule)
         if optimum is None or not is_near(optimum, start):
@@ -61,39 +114,57 @@ def is_near(optimum: Optimum, start: Optimum) -> bool:
 
 def first_guess(
     coarse: Coarse, lines: Sequence[Line], rule: AmplitudeRule, worst: float, goal: Goal
-) -> Optimum | None:
+) -> Optimum:
     """Read impulses and peaks off a coarse optimum."""
-    positive = rule is AmplitudeRule.POSITIVE
-    times, amplitudes = _clusters(coarse) if positive else _switches(coarse)
-    if times.size < 2:
-        return None
-    bare = Optimum(times, amplitudes, *_no_peaks(), worst)
-    peaks = _peaks(bare_like(coarse, bare), lines)
-    frequency, turn, moving, value = peaks
-    spot = np.where(
-        coarse.turn[:, np.newaxis] == turn, np.abs(np.subtract.outer(coarse.frequency, frequency)), np.inf
-    )
-    weights = np.bincount(spot.argmin(axis=1), coarse.weights, frequency.size)
+    times, amplitudes = _clusters(coarse) if rule is AmplitudeRule.POSITIVE else _switches(coarse)
+    peaks = peaks_of(coarse.times, coarse.amplitudes, lines)
+    away = np.abs(np.subtract.outer(coarse.frequency, peaks.frequency))
+    away[np.not_equal.outer(coarse.turn, peaks.turn)] = np.inf
+    weights = np.bincount(away.argmin(axis=1), coarse.weights, peaks.frequency.size)
     kept = weights > _ACTIVE * weights.max()
     kept[-1] |= goal is Goal.REACH  # the upper edge is what moves
-    weights = np.maximum(weights, 1e-6)
-    return replace(
-        bare,
-        frequency=frequency[kept],
-        turn=turn[kept],
-        moving=moving[kept],
-        weights=weights[kept] / weights[kept].sum(),
-        phase=np.angle(value[kept]),
-    )
+    weights = np.maximum(weights / weights.sum(), _ACTIVE)
+    phase = np.angle(peaks.value)
+    guess = Optimum(times, amplitudes, peaks.frequency, peaks.turn, peaks.moving, weights, phase, worst)
+    return with_peaks(guess, kept)
 
 
-def bare_like(coarse: Coarse, bare: Optimum) -> Optimum:
-    """The coarse optimum's own impulses, whose peaks its weights belong to."""
-    return replace(bare, times=coarse.times, amplitudes=coarse.amplitudes)
+@dataclass(frozen=True, eq=False)
+class LinePeaks:
+    """Local maxima of the residual vibration on all lines, in the order of the lines.
+
+    Parameters
+    ----------
+    frequency : ndarray, shape (m,)
+        Where they lie; at an end of a line to the last bit.
+    turn : ndarray of complex, shape (m,)
+        `Line.turn`.
+    moving : ndarray of bool, shape (m,)
+        Whether it lies inside its line.
+    value : ndarray of complex, shape (m,)
+        Residual vibration.
+    """
+
+    frequency: FloatArray
+    turn: ComplexArray
+    moving: NDArray[np.bool_]
+    value: ComplexArray
 
 
-def _no_peaks():  # type: ignore
-    return np.empty(0), np.empty(0, dtype=complex), np.empty(0, dtype=bool), np.empty(0), np.empty(0)
+def peaks_of(times: FloatArray, amplitudes: FloatArray, lines: Sequence[Line]) -> LinePeaks:
+    """Find every local maximum of the residual vibration on every line."""
+    duration = float(times[-1])
+    found = []
+    for line in lines:
+        response = Response.of_times(times, line.damping_ratio)
+        peaks = response.peaks(amplitudes, line.low * duration, line.high * duration)
+        frequency = peaks.frequency / duration
+        for end in (line.low, line.high):
+            frequency[np.abs(frequency - end) < _AT_END * end] = end
+        moving = (frequency > line.low) & (frequency < line.high)
+        found.append((frequency, np.full(frequency.size, line.turn), moving, peaks.value))
+    frequencies, turns, movings, values = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return LinePeaks(frequencies, turns, movings, values)
 
 
 def _clusters(coarse: Coarse) -> tuple[FloatArray, FloatArray]:
@@ -140,50 +211,34 @@ def _peaks(optimum: Optimum, lines: Sequence[Line]):  # type: ignore
 
 def _corrected(optimum: Optimum, lines: Sequence[Line], rule: AmplitudeRule) -> tuple[Optimum, bool]:
     """Drop what has the wrong sign, add what is not covered; say whether anything changed."""
-    kept = optimum.weights > 0.0
-    if not kept.all():
-        return replace(
-            optimum,
-            frequency=optimum.frequency[kept],
-            turn=optimum.turn[kept],
-            moving=optimum.moving[kept],
-            weights=optimum.weights[kept],
-            phase=optimum.phase[kept],
-        ), True
-    low = np.array([[l.low, l.high] for l in lines])
-    optimum2, c1 = _with_peaks(optimum, lines)
-    optimum3, c2 = _with_times(optimum, rule)
-    return replace(optimum2, times=optimum3.times, amplitudes=optimum3.amplitudes), c1 or c2
+    heavy = optimum.weights > 0.0
+    if not heavy.all() and heavy.any():
+        return with_peaks(optimum, heavy), True
+    peaked, more_peaks = _with_further_peaks(optimum, lines)
+    timed, other_times = _with_times(optimum, rule)
+    both = replace(peaked, times=timed.times, amplitudes=timed.amplitudes)
+    return both, more_peaks or other_times
 
 
-def _with_peaks(optimum: Optimum, lines: Sequence[Line]) -> tuple[Optimum, bool]:
-    frequency, turn, moving, value = _peaks(optimum, lines)
-    over = np.abs(value) > optimum.worst * (1.0 + _TOUCH)
+def _with_further_peaks(optimum: Optimum, lines: Sequence[Line]) -> tuple[Optimum, bool]:
+    """Add the peaks above the worst; each takes the place of those that were near it."""
+    peaks = peaks_of(optimum.times, optimum.amplitudes, lines)
+    over = np.abs(peaks.value) > optimum.worst * (1.0 + _TOUCH)
     if not over.any():
         return optimum, False
-    near = (turn[over][:, None] == optimum.turn) & (
-        np.abs(np.subtract.outer(frequency[over], optimum.frequency)) < _APART
-    )
-    replaced = near.any(axis=0)
-    weight = np.where(near.any(axis=1), (near * optimum.weights).sum(axis=1), _ADMITTED)
-    keep = ~replaced
+    near = np.abs(np.subtract.outer(peaks.frequency[over], optimum.frequency)) < _APART
+    near &= np.equal.outer(peaks.turn[over], optimum.turn)
+    weights = np.where(near.any(axis=1), near @ optimum.weights, _ADMITTED)
+    rest = with_peaks(optimum, ~near.any(axis=0))
     merged = replace(
         optimum,
-        frequency=np.append(optimum.frequency[keep], frequency[over]),
-        turn=np.append(optimum.turn[keep], turn[over]),
-        moving=np.append(optimum.moving[keep], moving[over]),
-        weights=np.append(optimum.weights[keep], weight),
-        phase=np.append(optimum.phase[keep], np.angle(value[over])),
+        frequency=np.append(rest.frequency, peaks.frequency[over]),
+        turn=np.append(rest.turn, peaks.turn[over]),
+        moving=np.append(rest.moving, peaks.moving[over]),
+        weights=np.append(rest.weights, weights),
+        phase=np.append(rest.phase, np.angle(peaks.value[over])),
     )
-    order = np.argsort(merged.frequency, kind="stable")
-    return replace(
-        merged,
-        frequency=merged.frequency[order],
-        turn=merged.turn[order],
-        moving=merged.moving[order],
-        weights=merged.weights[order],
-        phase=merged.phase[order],
-    ), True
+    return with_peaks(merged, np.argsort(merged.frequency, kind="stable")), True
 
 
 def _with_times(optimum: Optimum, rule: AmplitudeRule) -> tuple[Optimum, bool]:

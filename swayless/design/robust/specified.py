@@ -119,7 +119,7 @@ def specified_insensitivity(
     lines = [Line(1.0, ratio, damping) for damping in dict.fromkeys((low, high))]
     try:
         optimum = shortest(lines, tolerance, rule)
-        bound = proven_duration(optimum, tolerance, rule)
+        bound = proven_duration(optimum, lines, tolerance, rule)
         bare = _held_between(optimum, lines, tolerance, rule)
     except DesignError as error:
         raise DesignError(
@@ -169,9 +169,9 @@ def fixed_duration(
 
     Examples
     --------
-    >>> design = fixed_duration(1.0, 0.8003)
+    >>> design = fixed_duration(1.2, 0.8)
     >>> round(design.shaper.guarantee.band.high_hz, 3)
-    1.2
+    YY
     """
     damping, _ = _damping_range(damping_ratio)
     rule = _checked(tolerance, amplitudes)
@@ -190,8 +190,9 @@ def fixed_duration(
             "for the shortest shaper of the band you need instead"
         )
     optimum = widest(duration, damping, tolerance, rule)
-    band = Band(low_hz, low_hz * float(optimum.frequency[-1]))
-    bound = proven_duration(optimum, tolerance, rule)
+    ratio = float(optimum.frequency[-1])
+    band, lines = Band(low_hz, low_hz * ratio), [Line(1.0, ratio, damping)]
+    bound = proven_duration(optimum, lines, tolerance, rule)
     shaper = _shaper(optimum, band, damping, damping, tolerance, f"fd-{amplitudes}")
     return RobustDesign(shaper, bound / low_hz, (damping, damping))
 
@@ -234,7 +235,7 @@ def least_residual(
         raise DesignError(f"duration_s = {duration_s!r}: must be finite and > 0")
     lines = [Line(1.0, band.high_hz / band.low_hz, damping)]
     optimum = least(lines, duration_s * band.low_hz, TOLERANCES[0], rule)
-    bound = proven_duration(optimum, optimum.worst, rule)
+    bound = proven_duration(optimum, lines, optimum.worst, rule)
     shaper = _shaper(optimum, band, damping, damping, optimum.worst, f"fd-{amplitudes}")
     return RobustDesign(shaper, bound / band.low_hz, (damping, damping))
 
