@@ -1,4 +1,4 @@
-"""Robust design with a proof of optimality: the shortest shaper for a band, and the widest band for a duration.
+"""Robust design, proved optimal: the shortest shaper for a band, the widest band for a duration, banks.
 
 Not for: cranes and their rope lengths (`swayless.machine`), nor for named families (`families`).
 """

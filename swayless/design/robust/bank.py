@@ -41,8 +41,8 @@ def cover(
 ) -> tuple[RobustDesign, ...]:
     """Cover a range of frequencies with the fewest rows that hold a tolerance.
 
-    Each row starts where the one before ends and reaches as far as any can. No bank has fewer rows: a row that
-    starts lower reaches no farther.
+    Each row starts where the one before ends and reaches as far as any can. No bank has fewer rows: a row
+    that starts lower reaches no farther.
 
     Parameters
     ----------
@@ -103,8 +103,8 @@ def cover(
         rows.append(row)
         start_hz = row.shaper.guarantee.band.high_hz
     raise DesignError(
-        f"{low_hz:g} to {high_hz:g} Hz at {100 * tolerance:g} %: more than {_MOST_ROWS} rows of {duration:g} s; a "
-        "longer duration or a larger tolerance needs fewer"
+        f"{low_hz:g} to {high_hz:g} Hz at {tolerance:g}: more than {_MOST_ROWS} rows of {duration:g} s; "
+        "a longer duration or a larger tolerance needs fewer"
     )
 
 
@@ -117,7 +117,7 @@ def cover_with(
     damping_ratio: float = 0.0,
     amplitudes: Amplitudes = "positive",
 ) -> tuple[RobustDesign, ...]:
-    """Cover a range of frequencies with a given number of rows at the smallest tolerance, equal for all.
+    """Cover a range of frequencies with a number of rows at the smallest equal tolerance.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def cover_with(
     --------
     >>> rows = cover_with(2, 0.5, 1.0, duration_s=1.1, amplitudes="bounded")
     >>> round(rows[0].shaper.guarantee.tolerance, 4)
-    XX
+    0.0769
     """
     if rows < 1:
         raise DesignError(f"rows = {rows!r}: must be at least 1")

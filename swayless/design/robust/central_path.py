@@ -1,8 +1,8 @@
 """The least worst size of a few complex numbers that are affine in bounded variables, by the central path.
 
-A cone |G| <= v is treated as it is, not as a polygon of half-planes, so the program is small and smooth: about
-thirty steps of Newton's method solve it, whatever its size. Not for: exact optima, which `stationary` finds
-from here.
+A cone |G| <= v is treated as it is, not as a polygon of half-planes, so the program is small and smooth:
+about thirty steps of Newton's method solve it, whatever its size. Not for: exact optima, which `stationary`
+finds from here.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from swayless.design.minimax.response import ComplexArray
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 
@@ -46,7 +45,7 @@ class Centre:
 
 
 def least_worst(
-    rows: RealOrComplexArray, offset: RealOrComplexArray, *, sum_to_one: bool, resolved: float = 0.0
+    rows: RealOrComplexArray, offset: RealOrComplexArray, *, sum_to_one: bool, resolved: float = 1e-3
 ) -> Centre:
     """Minimise the largest |offset + rows @ x| over 0 <= x <= 1, with sum 1 if asked for.
 
@@ -72,7 +71,7 @@ def least_worst(
 
     Examples
     --------
-    >>> centre = least_worst(np.array([[1.0, -1.0]]), np.array([0.0]), sum_to_one=True)
+    >>> centre = least_worst(np.eye(2), np.zeros(2), sum_to_one=True)
     >>> centre.variables.round(3)
     array([0.5, 0.5])
     """

@@ -22,10 +22,10 @@ _SLACK = 1e-9  # of sizes of order 1: what the bound may lose against the true o
 class Certificate:
     """p(t) = Re sum c_k exp(f_k turn_k (t - T)), sum |c_k| <= 1, whose values prove a worst residual.
 
-    Take any shaper of duration t_n <= T. At f_k it leaves V_k = |exp(-z w t_n) sum A_i exp(f_k turn_k t_i)|, and
-    exp(-z w t_n) >= exp(-z w T). So max V_k >= sum |c_k| V_k >= sum A_i p(t_i): whatever the amplitudes are, their
-    worst residual vibration is at least the least value of that sum that the sign rule allows. Damping makes no
-    difference, because p counts the decay up to T, which is the most that a shorter design may have.
+    Take any shaper of duration t_n <= T. At f_k it leaves V_k = exp(-z w t_n) |sum A_i exp(f_k turn_k t_i)|,
+    and exp(-z w t_n) >= exp(-z w T). So max V_k >= sum |c_k| V_k >= sum A_i p(t_i): whatever the amplitudes
+    are, their worst residual vibration is at least the least value of that sum that the sign rule allows.
+    Damping makes no difference: p counts the decay up to T, the most that a shorter design may have.
 
     Parameters
     ----------
@@ -42,8 +42,8 @@ class Certificate:
     duration: float
 
     def dips(self) -> FloatArray:
-        """Sampled local minima of p, the ends included."""
-        left, width = self._cells(_SAMPLES_PER_CYCLE)
+        """Find the sampled local minima of p, the ends included."""
+        left, _ = self._cells(_SAMPLES_PER_CYCLE)
         times = np.append(left, self.duration)
         value = self(times)[0]
         low = (value <= np.append(np.inf, value[:-1])) & (value <= np.append(value[1:], np.inf))
@@ -69,8 +69,8 @@ class Certificate:
     def bound(self, rule: AmplitudeRule) -> float:
         """Least worst residual vibration that any shaper of the rule and of duration <= T can leave.
 
-        Positive amplitudes sum to 1, so sum A_i p(t_i) >= min p. Bounded ones give, by parts, p(T) - the integral
-        of p'(t) times the partial sum up to t, which is at least p(T) - the sum of all rises of p.
+        Positive amplitudes sum to 1, so sum A_i p(t_i) >= min p. Bounded ones give, by parts, p(T) - the
+        integral of p'(t) times the partial sum up to t, which is at least p(T) - the sum of all rises of p.
         """
         return self._least() if rule is AmplitudeRule.POSITIVE else self._end_less_rises()
 
@@ -81,7 +81,7 @@ class Certificate:
         return edges[:-1], float(width)
 
     def _least(self) -> float:
-        """Minimum of p over 0 .. T from below: in a cell it falls at most |p''| width^2 / 8 below both ends."""
+        """Minimum of p over 0 .. T from below: a cell falls at most |p''| width^2 / 8 below both ends."""
         left, width = self._cells()
         proven = sampled = np.inf
         while left.size:

@@ -68,7 +68,7 @@ def coarse_optimum(
     highest = max(line.high for line in lines)
     half = max(_FEWEST, math.ceil(fineness * _TIMES_PER_CYCLE / 2.0 * highest * duration))
     times = np.linspace(0.0, duration, 2 * half + 1)
-    spread = [_frequencies(line, duration) for line in lines]
+    spread = [_frequencies(line, duration, fineness) for line in lines]
     frequency = np.concatenate(spread)
     turn = np.repeat([line.turn for line in lines], [part.size for part in spread])
     symmetric = not np.any(turn.real)
@@ -86,11 +86,11 @@ def coarse_optimum(
     return Coarse(centre.worst, times, amplitudes, frequency, turn, centre.weights)
 
 
-def _frequencies(line: Line, duration: float) -> FloatArray:
+def _frequencies(line: Line, duration: float, fineness: int) -> FloatArray:
     """Spread frequencies over a line, its ends included."""
     count = math.ceil(_FREQUENCIES_PER_RIPPLE * duration * (line.high - line.low))
     return (
-        np.linspace(line.low, line.high, max(_FEWEST, count))
+        np.linspace(line.low, line.high, fineness * max(_FEWEST, count))
         if line.high > line.low
         else np.array([line.low])
     )
@@ -99,8 +99,8 @@ def _frequencies(line: Line, duration: float) -> FloatArray:
 def _variables(half: int, rule: AmplitudeRule, *, symmetric: bool) -> tuple[FloatArray, FloatArray]:
     """Amplitudes at 2 half + 1 times as start + table @ variables, every variable between 0 and 1.
 
-    The variables are amplitudes (positive: of a pair of mirror images, if symmetric), or the levels that the
-    reference takes between two times (bounded: if symmetric, the level and that of its mirror image sum to 1).
+    The variables are amplitudes (positive; of a pair of mirror images, if symmetric), or the levels that the
+    reference takes between two times (bounded; if symmetric, a level and its mirror image sum to 1).
     """
     count = 2 * half + 1
     if rule is AmplitudeRule.POSITIVE:

@@ -12,8 +12,8 @@ from dataclasses import replace
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.robust.coarse import coarse_optimum
 from swayless.design.robust.lines import Line
-from swayless.design.robust.search import candidates, certificate_of, feasible, first_guess, is_near, settle
-from swayless.design.robust.stationary import Goal, Optimum, polish
+from swayless.design.robust.search import certificate_of, feasible, first_guess, settle
+from swayless.design.robust.stationary import Goal, Optimum
 from swayless.errors import DesignError
 
 _TRIALS = 16  # of durations or edges; two or three are usual
@@ -68,14 +68,14 @@ def widest(duration: float, damping_ratio: float, tolerance: float, rule: Amplit
 def worst_at_ends(
     duration: float, damping_ratio: float, tolerance: float, rule: AmplitudeRule
 ) -> tuple[float, float]:
-    """What a duration leaves, nearly, at frequency 1 alone, and from there to the widest ratio."""
+    """Estimate what a duration leaves at frequency 1 alone, and from there to the widest ratio."""
     lines = ([Line(1.0, high, damping_ratio)] for high in (1.0, WIDEST_RATIO))
     narrow, wide = (coarse_optimum(line, duration, rule, tolerance=tolerance).worst for line in lines)
     return narrow, wide
 
 
 def least(lines: Sequence[Line], duration: float, tolerance: float, rule: AmplitudeRule) -> Optimum:
-    """Find the impulses of a duration that leave the least on all lines, given that they can meet a tolerance.
+    """Find the impulses of a duration that leave the least on all lines.
 
     Raises
     ------
@@ -100,10 +100,10 @@ def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, r
         If nothing within 0.3 % can be proved.
     """
     shorter = [replace(optimum, times=optimum.times * (1.0 - gap)) for gap in _GAPS]
-    for start in (start for each in shorter for start in candidates(each, Goal.WORST)):
-        best = polish(start, Goal.WORST, rule)
-        if best is not None and is_near(best, start) and certificate_of(best).bound(rule) > tolerance:
-            return start.duration
+    for each in shorter:
+        best = settle(each, lines, Goal.WORST, rule, thorough=True)
+        if best is not None and certificate_of(best).bound(rule) > tolerance:
+            return each.duration
     for each in shorter:
         coarse = coarse_optimum(lines, each.duration, rule, tolerance=tolerance, fineness=_FINEST)
         if coarse.certificate.bound(rule) > tolerance:

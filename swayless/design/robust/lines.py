@@ -9,11 +9,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from swayless.design.shaper import FloatArray
-from swayless.design.minimax.response import ComplexArray
-
-import numpy as np
-
 
 @dataclass(frozen=True)
 class Line:

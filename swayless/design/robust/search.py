@@ -1,4 +1,4 @@
-"""From a coarse optimum to the exact one: what is active is read off, polished, checked everywhere, corrected.
+"""From a coarse optimum to the exact one: what is active is read off, polished, checked and corrected.
 
 An optimum is accepted only when its residual vibration keeps to the worst at every frequency of every line,
 and its certificate at every time: then no design is better, however it was found. Not for: units (`design`).
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swayless.design.minimax import AmplitudeRule
-from swayless.design.minimax.response import ComplexArray, Response
+from swayless.design.minimax.response import ComplexArray, IndexArray, Response
 from swayless.design.robust.certificate import Certificate
 from swayless.design.robust.coarse import Coarse
 from swayless.design.robust.lines import Line
@@ -69,17 +69,20 @@ def feasible(start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeR
 def candidates(start: Optimum, goal: Goal) -> list[Optimum]:
     """List a start, and the same without one of its lightest peaks.
 
-    Where a design happens to touch the worst once more than it must (an EI shaper does), weights are not unique
-    and Newton's method is lost with all of them. The upper edge stays where it is what moves.
+    Where a design happens to touch the worst once more than it must (an EI shaper does), weights are not
+    unique and Newton's method is lost with all of them. The upper edge stays where it is what moves.
     """
     droppable = start.weights[:-1] if goal is Goal.REACH else start.weights
     if start.weights.size == 1:
         return [start]
     lightest = np.argsort(droppable, kind="stable")[:_TRIED]
-    return [start, *(with_peaks(start, np.arange(start.weights.size) != peak) for peak in lightest)]
+    return [
+        start,
+        *(with_peaks(start, np.asarray(np.arange(start.weights.size) != peak)) for peak in lightest),
+    ]
 
 
-def with_peaks(optimum: Optimum, kept: NDArray[np.bool_] | NDArray[np.intp]) -> Optimum:
+def with_peaks(optimum: Optimum, kept: NDArray[np.bool_] | IndexArray) -> Optimum:
     """Keep some peaks of an optimum, or put them in another order."""
     return replace(
         optimum,
@@ -151,6 +154,11 @@ class LinePeaks:
     value: ComplexArray
 
 
+def _alternating(count: int) -> FloatArray:
+    """Amplitudes +1, -1, +1, ..."""
+    return 1.0 - 2.0 * np.asarray(np.arange(count) % 2, dtype=np.float64)
+
+
 def peaks_of(times: FloatArray, amplitudes: FloatArray, lines: Sequence[Line]) -> LinePeaks:
     """Find every local maximum of the residual vibration on every line."""
     duration = float(times[-1])
@@ -181,7 +189,7 @@ def _clusters(coarse: Coarse) -> tuple[FloatArray, FloatArray]:
 
 
 def _switches(coarse: Coarse) -> tuple[FloatArray, FloatArray]:
-    """Times at which the level of the reference passes one half, with unity amplitudes."""
+    """Find where the level of the reference passes one half: switches, of unity amplitude."""
     level = np.cumsum(coarse.amplitudes)[:-1]
     middle = (coarse.times[1:] + coarse.times[:-1]) / 2.0
     at = np.flatnonzero((level[1:] > 0.5) != (level[:-1] > 0.5))
@@ -191,7 +199,7 @@ def _switches(coarse: Coarse) -> tuple[FloatArray, FloatArray]:
     first = [level[0] * width] if level[0] < 0.5 else []
     last = [coarse.times[-1] - (1.0 - level[-1]) * width] if level[-1] > 0.5 else []
     times = np.concatenate([[0.0], first, inner, last, coarse.times[-1:]])
-    return times, (-1.0) ** np.arange(times.size)
+    return times, _alternating(times.size)
 
 
 def _peaks(optimum: Optimum, lines: Sequence[Line]):  # type: ignore
@@ -229,7 +237,7 @@ def _with_further_peaks(optimum: Optimum, lines: Sequence[Line]) -> tuple[Optimu
     near = np.abs(np.subtract.outer(peaks.frequency[over], optimum.frequency)) < _APART
     near &= np.equal.outer(peaks.turn[over], optimum.turn)
     weights = np.where(near.any(axis=1), near @ optimum.weights, _ADMITTED)
-    rest = with_peaks(optimum, ~near.any(axis=0))
+    rest = with_peaks(optimum, np.asarray(~near.any(axis=0)))
     merged = replace(
         optimum,
         frequency=np.append(rest.frequency, peaks.frequency[over]),
@@ -256,7 +264,7 @@ def _with_times(optimum: Optimum, rule: AmplitudeRule) -> tuple[Optimum, bool]:
     times = certificate.dips() if positive else certificate.extremes()
     if not positive:
         times = np.concatenate([[0.0], times, [optimum.duration]])
-        return _with_impulses(optimum, times, (-1.0) ** np.arange(times.size))
+        return _with_impulses(optimum, times, _alternating(times.size))
     far = np.abs(np.subtract.outer(times, optimum.times)).min(axis=1) > _NEWCOMER * apart
     new = times[far & (certificate(times)[0] < optimum.worst * (1.0 - _COVERED))]
     admitted = np.full(new.size, _ADMITTED)

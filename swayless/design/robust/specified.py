@@ -1,4 +1,4 @@
-"""Specified insensitivity and fixed duration: the best shaper for a band, in seconds and hertz, with its proof.
+"""Specified insensitivity and fixed duration: the best shaper for a band, and the proof that it is.
 
 Not for: families with a fixed recipe (`families`), nor for several shapers that share a range (`bank`).
 """
@@ -72,8 +72,9 @@ def specified_insensitivity(
 ) -> RobustDesign:
     """Design the shortest shaper that leaves at most the tolerance over a band.
 
-    Bounded designs (every partial sum in 0 .. 1) come out with amplitudes +1, -1, ..., +1: the dual polynomial
-    has isolated extremes, between which the best level is 0 or 1. So "unity-magnitude" asks for the same.
+    Bounded designs (every partial sum in 0 .. 1) come out with amplitudes +1, -1, ..., +1: the dual
+    polynomial has isolated extremes, between which the best level is 0 or 1. So "unity-magnitude" asks for
+    the same.
 
     Parameters
     ----------
@@ -113,8 +114,8 @@ def specified_insensitivity(
     ratio = band.high_hz / band.low_hz
     if ratio > WIDEST_RATIO:
         raise DesignError(
-            f"band {band.low_hz:g} to {band.high_hz:g} Hz: the ratio {ratio:g} must be at most {WIDEST_RATIO:g}; "
-            "split it into rows of a bank"
+            f"band {band.low_hz:g} to {band.high_hz:g} Hz: the ratio {ratio:g} must be at most "
+            f"{WIDEST_RATIO:g}; split it into rows of a bank"
         )
     lines = [Line(1.0, ratio, damping) for damping in dict.fromkeys((low, high))]
     try:
@@ -123,8 +124,8 @@ def specified_insensitivity(
         bare = _held_between(optimum, lines, tolerance, rule)
     except DesignError as error:
         raise DesignError(
-            f"{amplitudes} shaper for {band.low_hz:g} to {band.high_hz:g} Hz at {100 * tolerance:g} %: {error}; "
-            "another tolerance or band may do"
+            f"{amplitudes} shaper for {band.low_hz:g} to {band.high_hz:g} Hz at {100 * tolerance:g} %: "
+            f"{error}; another tolerance or band may do"
         ) from None
     shaper = _shaper(bare, band, low, high, tolerance, f"si-{amplitudes}")
     return RobustDesign(shaper, bound / band.low_hz, (low, high))
@@ -171,7 +172,7 @@ def fixed_duration(
     --------
     >>> design = fixed_duration(1.2, 0.8)
     >>> round(design.shaper.guarantee.band.high_hz, 3)
-    YY
+    1.714
     """
     damping, _ = _damping_range(damping_ratio)
     rule = _checked(tolerance, amplitudes)
@@ -186,8 +187,8 @@ def fixed_duration(
         )
     if wide <= tolerance:
         raise DesignError(
-            f"duration_s = {duration_s!r}: enough for {low_hz:g} to {WIDEST_RATIO * low_hz:g} Hz and more; ask "
-            "for the shortest shaper of the band you need instead"
+            f"duration_s = {duration_s!r}: enough for {low_hz:g} to {WIDEST_RATIO * low_hz:g} Hz and "
+            "more; ask for the shortest shaper of the band you need instead"
         )
     optimum = widest(duration, damping, tolerance, rule)
     ratio = float(optimum.frequency[-1])

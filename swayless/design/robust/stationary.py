@@ -1,4 +1,4 @@
-"""Newton's method on the conditions of an optimal shaper: times, amplitudes, peaks and their weights together.
+"""Newton's method on the conditions of an optimal shaper: impulses, peaks and weights together.
 
 Not for: finding what is active, which is `search`.
 """

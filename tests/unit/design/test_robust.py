@@ -1,0 +1,207 @@
+"""Robust designs against known optima and an independent linear program; certificates against sampling."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+
+from swayless.design import partial_sums, residual_vibration, worst_residual
+from swayless.design.minimax import AmplitudeRule
+from swayless.design.robust import (
+    RobustDesign,
+    cover,
+    cover_with,
+    fixed_duration,
+    least_residual,
+    specified_insensitivity,
+)
+from swayless.design.robust.certificate import Certificate
+from swayless.errors import DesignError
+from swayless.plant import Band
+
+PROVED_GAP = 0.003  # of the duration: what is promised; usual is 1e-6
+TOUCH = 1.0 + 1e-8  # peaks touch the tolerance to rounding
+
+
+@pytest.mark.parametrize(("width", "periods"), [(0.3994, 1.0), (0.7245, 1.5), (0.9638, 2.0)])
+def test_undamped_widths_at_5_percent_need_the_durations_of_ei_and_its_humps(
+    width: float, periods: float
+) -> None:
+    design = specified_insensitivity(Band(1.0 - width / 2.0, 1.0 + width / 2.0), tolerance=0.05)
+    # The widths are quoted to four digits, and the duration moves by as much.
+    assert design.shaper.duration_s == pytest.approx(periods, abs=2e-4)
+    assert 0.0 < design.gap_ratio < PROVED_GAP
+
+
+def test_a_single_frequency_at_zero_damping_has_the_textbook_optimum() -> None:
+    # Two halves a time T apart leave |cos(pi f T)|, and no positive shaper leaves less.
+    design = specified_insensitivity(Band(1.0, 1.0), tolerance=0.05)
+    assert design.shaper.duration_s == pytest.approx(np.arccos(0.05) / np.pi, rel=1e-9)
+    np.testing.assert_allclose(design.shaper.amplitudes, [0.5, 0.5], atol=1e-9)
+
+
+@pytest.mark.parametrize("damping_ratio", [0.0, 0.02, 0.2])
+@pytest.mark.parametrize("ratio", [1.3, 2.5, 8.0])
+@pytest.mark.parametrize("amplitudes", ["positive", "bounded"])
+def test_specified_insensitivity_holds_the_band_and_is_proved_shortest(
+    amplitudes: str, ratio: float, damping_ratio: float
+) -> None:
+    band = Band(0.3, 0.3 * ratio)
+    design = specified_insensitivity(band, damping_ratio=damping_ratio, amplitudes=amplitudes)  # type: ignore[arg-type]
+    _check(design, band, 0.05, damping_ratio, amplitudes)
+
+
+def _check(design: RobustDesign, band: Band, tolerance: float, damping_ratio: float, amplitudes: str) -> None:
+    """Assert what every design promises."""
+    samples_hz = np.linspace(band.low_hz, band.high_hz, 20_001)
+    residual = residual_vibration(design.shaper, samples_hz, damping_ratio=damping_ratio)
+    assert residual.max() <= tolerance * TOUCH
+    assert 0.0 < design.gap_ratio < PROVED_GAP
+    if amplitudes == "positive":
+        assert design.shaper.amplitudes.min() > 0.0
+    else:
+        levels = partial_sums(design.shaper)
+        assert levels.min() >= -1e-12
+        assert levels.max() <= 1.0 + 1e-12
+
+
+@pytest.mark.parametrize("amplitudes", ["positive", "bounded"])
+@pytest.mark.parametrize(
+    ("ratio", "damping_ratio", "tolerance"), [(1.5, 0.0, 0.05), (2.0, 0.1, 0.03), (3.0, 0.0, 0.1)]
+)
+def test_a_dense_linear_program_leaves_the_tolerance_in_the_same_duration(
+    amplitudes: str, ratio: float, damping_ratio: float, tolerance: float
+) -> None:
+    design = specified_insensitivity(
+        Band(1.0, ratio),
+        tolerance=tolerance,
+        damping_ratio=damping_ratio,
+        amplitudes=amplitudes,  # type: ignore[arg-type]
+    )
+    least = _dense_program(design.shaper.duration_s, ratio, damping_ratio, amplitudes == "bounded")
+    # 161 times leave more, 61 frequencies and 32 phases see less: 1 % covers both.
+    assert least == pytest.approx(tolerance, rel=0.01)
+    # At 2 % less time it cannot hold the tolerance, as the bound says.
+    shorter = _dense_program(0.98 * design.lower_bound_s, ratio, damping_ratio, amplitudes == "bounded")
+    assert shorter > tolerance
+
+
+def _dense_program(duration: float, ratio: float, damping_ratio: float, bounded: bool) -> float:
+    """Least worst residual over 161 times, 61 frequencies and 32 half-planes each: one plain program."""
+    times, frequency = np.linspace(0.0, duration, 161), np.linspace(1.0, ratio, 61)
+    turn = 2.0 * np.pi * complex(damping_ratio, np.sqrt(1.0 - damping_ratio**2))
+    columns = np.exp(np.multiply.outer(frequency * turn, times - duration))
+    phases = np.exp(-2j * np.pi * np.arange(32) / 32.0)
+    planes = np.multiply.outer(phases, columns).real.reshape(-1, times.size)
+    planes = np.hstack([planes, -np.ones((len(planes), 1))])
+    limits, right = planes, np.zeros(len(planes))
+    bounds: list[tuple[float | None, float | None]] = [(0.0, None)] * (times.size + 1)
+    if bounded:
+        sums = np.hstack([np.tri(times.size), np.zeros((times.size, 1))])
+        limits = np.vstack([planes, sums, -sums])
+        right = np.concatenate([right, np.ones(times.size), np.zeros(times.size)])
+        bounds = [(None, None)] * times.size + [(0.0, None)]
+    result = linprog(
+        np.append(np.zeros(times.size), 1.0),
+        A_ub=limits,
+        b_ub=right,
+        A_eq=np.append(np.ones(times.size), 0.0)[np.newaxis],
+        b_eq=[1.0],
+        bounds=bounds,
+        method="highs",
+    )
+    return float(result.fun)
+
+
+def test_a_damping_range_is_held_at_every_damping_ratio_in_it() -> None:
+    band = Band(0.2, 0.5)
+    design = specified_insensitivity(band, damping_ratio=(0.0, 0.15))
+    for damping_ratio in np.linspace(0.0, 0.15, 31):
+        assert worst_residual(design.shaper, band, damping_ratio=damping_ratio) <= 0.05 * TOUCH
+    alone = specified_insensitivity(band)
+    assert design.shaper.duration_s >= alone.lower_bound_s
+
+
+def test_bounded_optima_switch_between_zero_and_one() -> None:
+    design = specified_insensitivity(Band(0.2, 0.5), amplitudes="bounded")
+    signs = (-1.0) ** np.arange(design.shaper.times_s.size)
+    np.testing.assert_allclose(design.shaper.amplitudes, signs, atol=1e-15)
+    same = specified_insensitivity(Band(0.2, 0.5), amplitudes="unity-magnitude")
+    np.testing.assert_array_equal(design.shaper.times_s, same.shaper.times_s)
+
+
+def test_fixed_duration_and_specified_insensitivity_are_each_others_inverse() -> None:
+    reach = fixed_duration(3.0, 0.25, tolerance=0.04)
+    back = specified_insensitivity(reach.shaper.guarantee.band, tolerance=0.04)
+    assert back.shaper.duration_s == pytest.approx(3.0, rel=1e-8)
+
+
+def test_least_residual_is_the_tolerance_that_needs_the_duration() -> None:
+    best = least_residual(2.5, Band(0.3, 0.8), damping_ratio=0.05)
+    tolerance = best.shaper.guarantee.tolerance
+    back = specified_insensitivity(Band(0.3, 0.8), tolerance=tolerance, damping_ratio=0.05)
+    assert back.shaper.duration_s == pytest.approx(2.5, rel=1e-8)
+
+
+def test_an_ei_duration_where_weights_are_not_unique_is_still_proved() -> None:
+    design = fixed_duration(1.0, 0.8003)
+    assert 0.0 < design.gap_ratio < PROVED_GAP
+
+
+def test_rows_of_a_bank_meet_and_hold_the_tolerance() -> None:
+    rows = cover(0.2, 0.6, tolerance=0.05, longest_duration_s=2.6, amplitudes="bounded")
+    bands = [row.shaper.guarantee.band for row in rows]
+    assert bands[0].low_hz == 0.2
+    assert bands[-1].high_hz == 0.6
+    assert all(one.high_hz == other.low_hz for one, other in pairwise(bands))
+    assert all(row.shaper.duration_s <= 2.6 * (1.0 + 1e-9) for row in rows)
+    for row, band in zip(rows, bands, strict=True):
+        assert worst_residual(row.shaper, band) <= 0.05 * TOUCH
+
+
+def test_cover_with_spreads_one_tolerance_over_all_rows() -> None:
+    rows = cover_with(2, 0.5, 1.0, duration_s=1.1, amplitudes="bounded")
+    tolerances = [row.shaper.guarantee.tolerance for row in rows]
+    assert len(rows) == 2
+    # The excess of the last row's reach is at most 1e-9, which its tolerance follows tenfold at most.
+    np.testing.assert_allclose(tolerances, tolerances[0], rtol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: specified_insensitivity(Band(0.1, 0.9)), r"ratio 9 must be at most 8"),
+        (lambda: specified_insensitivity(Band(0.1, 0.2), tolerance=0.5), r"tolerance = 0.5: must be 0.01"),
+        (lambda: specified_insensitivity(Band(0.1, 0.2), damping_ratio=(0.1, 0.05)), r"lowest first"),
+        (lambda: specified_insensitivity(Band(0.1, 0.2), amplitudes="any"), r"must be one of"),  # type: ignore[arg-type]
+        (lambda: fixed_duration(0.5, 0.2), r"too short"),
+        (lambda: fixed_duration(50.0, 0.2), r"and more; ask for the shortest"),
+        (lambda: fixed_duration(float("nan"), 0.2), r"finite and > 0"),
+        (lambda: cover(0.2, 0.6), r"either duration_s or longest_duration_s"),
+        (lambda: cover_with(0, 0.2, 0.6, duration_s=3.0), r"must be at least 1"),
+        (lambda: cover_with(1, 0.2, 1.2, duration_s=2.0), r"more rows or a longer duration do"),
+    ],
+)
+def test_refusals_say_what_is_allowed(call: object, message: str) -> None:
+    with pytest.raises(DesignError, match=message):
+        call()  # type: ignore[operator]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_certificates_bound_the_sampled_polynomial_from_below(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    weights = rng.dirichlet(np.ones(5))
+    coefficients: NDArray[np.complex128] = weights * np.exp(2j * np.pi * rng.random(5))
+    rates = 2.0 * np.pi * rng.uniform(1.0, 6.0, 5) * complex(0.1 * (seed % 2), 1.0)
+    certificate = Certificate(coefficients, rates, 1.7)
+    times = np.linspace(0.0, 1.7, 200_001)
+    value, _ = certificate(times)
+    # Sampling misses the minimum by at most |p''| h^2 / 8 = 1e-8; the bound gives away 1e-9.
+    least = certificate.bound(AmplitudeRule.POSITIVE)
+    assert value.min() - 1e-7 <= least <= value.min()
+    rises = value[-1] - np.maximum(np.diff(value), 0.0).sum()
+    assert rises - 1e-7 <= certificate.bound(AmplitudeRule.BOUNDED) <= rises + 1e-12
