@@ -14,7 +14,6 @@ import numpy as np
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.minimax.response import ComplexArray
 from swayless.design.robust.central_path import RealOrComplexArray, least_worst
-from swayless.design.robust.certificate import Certificate
 from swayless.design.robust.lines import Line
 from swayless.design.shaper import FloatArray
 
@@ -47,14 +46,6 @@ class Coarse:
     frequency: FloatArray
     turn: ComplexArray
     weights: FloatArray
-
-    @property
-    def certificate(self) -> Certificate:
-        """The dual polynomial of these weights: valid, if not as sharp as that of an exact optimum."""
-        duration = float(self.times[-1])
-        rates = self.frequency * self.turn
-        value = np.exp(np.multiply.outer(rates, self.times - duration)) @ self.amplitudes
-        return Certificate(self.weights / self.weights.sum() * np.exp(-1j * np.angle(value)), rates, duration)
 
 
 def coarse_optimum(

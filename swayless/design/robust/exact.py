@@ -104,9 +104,8 @@ def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, r
         best = settle(each, lines, Goal.WORST, rule, thorough=True)
         if best is not None and certificate_of(best).bound(rule) > tolerance:
             return each.duration
-    for each in shorter:
-        coarse = coarse_optimum(lines, each.duration, rule, tolerance=tolerance, fineness=_FINEST)
-        if coarse.certificate.bound(rule) > tolerance:
+    for each in shorter:  # where another structure holds just below the optimum's duration
+        if certificate_of(least(lines, each.duration, tolerance, rule)).bound(rule) > tolerance:
             return each.duration
     raise DesignError(
         f"no duration within {_GAPS[-1]:.1%} of {optimum.duration:.6g} periods is proved too short"
