@@ -82,13 +82,21 @@ def least(lines: Sequence[Line], duration: float, tolerance: float, rule: Amplit
     DesignError
         If no optimum is found.
     """
+    optimum = _least(lines, duration, tolerance, rule)
+    if optimum is None:
+        raise DesignError(f"no optimum found for {duration:g} periods")
+    return optimum
+
+
+def _least(lines: Sequence[Line], duration: float, tolerance: float, rule: AmplitudeRule) -> Optimum | None:
+    """Find it on finer and finer grids; None if none of them leads there."""
     for fineness in range(1, _FINEST + 1):
         coarse = coarse_optimum(lines, duration, rule, tolerance=tolerance, fineness=fineness)
         guess = first_guess(coarse, lines, rule, coarse.worst, Goal.WORST)
         optimum = settle(guess, lines, Goal.WORST, rule, thorough=fineness > 1)
         if optimum is not None:
             return optimum
-    raise DesignError(f"no optimum found for {duration:g} periods")
+    return None
 
 
 def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, rule: AmplitudeRule) -> float:
@@ -105,7 +113,8 @@ def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, r
         if best is not None and certificate_of(best).bound(rule) > tolerance:
             return each.duration
     for each in shorter:  # where another structure holds just below the optimum's duration
-        if certificate_of(least(lines, each.duration, tolerance, rule)).bound(rule) > tolerance:
+        best = _least(lines, each.duration, tolerance, rule)
+        if best is not None and certificate_of(best).bound(rule) > tolerance:
             return each.duration
     raise DesignError(
         f"no duration within {_GAPS[-1]:.1%} of {optimum.duration:.6g} periods is proved too short"
