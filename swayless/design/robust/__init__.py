@@ -11,13 +11,16 @@ from swayless.design.robust.specified import (
     least_residual,
     specified_insensitivity,
 )
+from swayless.design.robust.ticks import RobustTaps, specified_insensitivity_on_ticks
 
 __all__ = [
     "Amplitudes",
     "RobustDesign",
+    "RobustTaps",
     "cover",
     "cover_with",
     "fixed_duration",
     "least_residual",
     "specified_insensitivity",
+    "specified_insensitivity_on_ticks",
 ]
