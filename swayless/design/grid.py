@@ -47,8 +47,9 @@ def solve_on_grid(shaper: Shaper, tick_s: float) -> GridShaper:
     amplitudes of the family's kind exist that (1) cancel the mode exactly, with the derivatives that the
     family cancels, and (2) leave at most the tolerance over the whole band that the ideal shaper holds; of
     these, the amplitudes that leave least. Positive families keep positive amplitudes. Families with negative
-    ones keep every partial sum in 0 .. 1, so their taps may include levels that last a tick. Families with a
-    free delay move it to the nearest whole tick (at least one) and hold the band that this gives.
+    ones keep every partial sum in 0 .. 1, so their taps may include levels that last a tick. The ideal
+    duration, rounded up, must have room for the ideal impulses. Families with a free delay move it to the
+    nearest whole tick (at least one) and hold the band that this gives.
 
     Parameters
     ----------
@@ -122,6 +123,8 @@ def _solve(shaper: Shaper, tick_s: float) -> GridShaper:
     ideal_ticks = shaper.times_s / tick_s
     below, above = np.floor(ideal_ticks * (1.0 + _ON_TICK)), np.ceil(ideal_ticks * (1.0 - _ON_TICK))
     near, last = np.union1d(below, above).astype(np.intp), int(above[-1])
+    if last + 1 < ideal_ticks.size:  # other impulses might do, but they would be another family's, and longer
+        raise DesignError(f"no room for {ideal_ticks.size} impulses in a duration of {last} x {tick_s:g} s")
     for extra_ticks in range(EXTRA_TICKS):
         try:
             return _solve_within(shaper, tick_s, near, last + extra_ticks)

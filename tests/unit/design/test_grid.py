@@ -147,7 +147,8 @@ def test_result_does_not_depend_on_the_unit_of_time() -> None:
         ("zv", 4.0, r"no amplitudes within 3 ticks leave less than [\d.]+ %, and 5 % is promised"),
         ("zvd", 4.0, r"no amplitudes within 4 ticks cancel the mode"),
         ("ei", 4.0, r"no amplitudes within 4 ticks leave less than [\d.]+ %, and 5 % is promised"),
-        ("um-ei", 3.6, r"no amplitudes within \d ticks leave less than [\d.]+ %, and 5 % is promised"),
+        ("um-zv", 2.0, r"no room for 3 impulses in a duration of 1 x 2 s"),
+        ("um-ei", 3.6, r"no room for 5 impulses in a duration of 2 x 3.6 s"),
     ],
 )
 def test_too_coarse_a_tick_is_refused_with_one_that_does(family: str, tick_s: float, reason: str) -> None:
