@@ -57,7 +57,7 @@ class ShaperOutput(NamedTuple):
     stop_time_s : float or int
         Time until the reference is 0 then, in int32 rounded up to whole seconds.
     stop_time_ticks : int
-        The same, in ticks.
+        The same, in ticks; in int32 the last references may round to 0 before.
     residual_bound : float or int
         Residual vibration promised by the row in use: a ratio, in int32 millionths.
     row : int
