@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import inspect
+import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -80,7 +83,17 @@ def main() -> None:
         # Files are seen to where they are written; what is left is the machine: a full disk behind a pipe, no
         # temporary folder, a compiler that does not start.
         typer.echo(f"error: {error}", err=True)
+        _discard_output()
         sys.exit(EXIT_BAD)
+
+
+def _discard_output() -> None:
+    """Send what standard output still holds nowhere: Python would write it again as it ends, and fail again."""
+    with (
+        suppress(AttributeError, OSError),
+        Path(os.devnull).open("wb") as nowhere,
+    ):  # no output, or not a file
+        os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 
 def _exit_code(error: SwaylessError) -> int:

@@ -57,20 +57,24 @@ def test_progress_stays_out_of_files_and_pipes(arm, tmp_path):
     assert "designing" not in done.stdout
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("arguments", [("--help",), ("design", "zv", "--frequency", "1")])
-def test_a_reader_who_leaves_early_gets_no_traceback(arguments):
-    with subprocess.Popen([*PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+def test_a_reader_who_leaves_early_gets_no_traceback(arguments, unbuffered):
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    with subprocess.Popen([*PROGRAM, *arguments], env=environment, **streams) as process:
         process.stdout.close()
         error = process.stderr.read().decode()
     assert error == ""
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="/dev/full is a thing of Linux")
-def test_an_output_that_takes_nothing_is_an_error_without_traceback():
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_an_output_that_takes_nothing_is_an_error_without_traceback(unbuffered):
+    command = [*PROGRAM, "design", "zv", "--frequency", "1"]
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
     with Path("/dev/full").open("w") as full:
-        done = subprocess.run(
-            [*PROGRAM, "design", "zv", "--frequency", "1"], stdout=full, stderr=subprocess.PIPE, check=False
-        )
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, env=environment, check=False)
     assert done.returncode == 2
     assert done.stderr.decode() == "error: [Errno 28] No space left on device\n"
 
