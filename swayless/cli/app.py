@@ -88,7 +88,7 @@ def main() -> None:
 
 
 def _discard_output() -> None:
-    """Send what standard output still holds nowhere: Python would write it again as it ends, and fail again."""
+    """Send what standard output still holds nowhere, or Python would write it as it ends, and fail again."""
     with (
         suppress(AttributeError, OSError),
         Path(os.devnull).open("wb") as nowhere,
