@@ -89,10 +89,7 @@ def main() -> None:
 
 def _discard_output() -> None:
     """Send what standard output still holds nowhere, or Python would write it as it ends, and fail again."""
-    with (
-        suppress(AttributeError, OSError),
-        Path(os.devnull).open("wb") as nowhere,
-    ):  # no output, or not a file
+    with suppress(AttributeError, OSError), Path(os.devnull).open("wb") as nowhere:
         os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 

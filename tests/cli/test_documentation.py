@@ -83,6 +83,15 @@ def test_every_option_is_in_the_table_of_its_command_and_no_other(command):
     assert documented == names
 
 
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_link_of_a_page_leads_somewhere(page):
+    for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+        assert (page.parent / target).exists(), target
+
+
 @pytest.fixture(scope="module")
 def workshop(tmp_path_factory):
     """The machine of the wiring examples: its block as settings, and where it comes from."""
