@@ -89,7 +89,7 @@ def _generated(files: list[GeneratedFile]) -> list[str]:
         library = folder / "loop.so"
         sources = [folder / "loop.c", folder / "srtc_gantry_shaper.c"]
         flags = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC"]
-        compiler._run([*flags, *map(str, sources), "-o", str(library)], "the benchmark")
+        compiler._run([*flags, *map(str, sources), "-o", str(library)], "the benchmark", folder)
         run = ctypes.CDLL(str(library)).run
         run.restype = ctypes.c_double
         plain_s = best_s(lambda: run(3, SAMPLES, 0))

@@ -40,7 +40,7 @@ class CompiledBlock:
         self, files: Sequence[GeneratedFile], harness: GeneratedFile, compiler: Compiler, number: NumberType
     ) -> None:
         self._files, self._harness, self._compiler, self._number = files, harness, compiler, number
-        self._folder = tempfile.TemporaryDirectory(prefix="swayless-")
+        self._folder = tempfile.TemporaryDirectory(prefix="swayless-", ignore_cleanup_errors=True)
         self._program = Path(self._folder.name) / "block.exe"
 
     def __enter__(self) -> CompiledBlock:

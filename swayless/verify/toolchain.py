@@ -76,10 +76,11 @@ class Compiler:
             *((s, _BASE[:3]) for s in sources),
         ]:
             objects.append(program.parent / f"{source.stem}.o")
-            self._run([*flags, "-c", str(source), "-o", str(objects[-1])], source.name)
-        self._run([*map(str, objects), "-o", str(program)], program.name)
+            self._run([*flags, "-c", str(source), "-o", str(objects[-1])], source.name, program.parent)
+        self._run([*map(str, objects), "-o", str(program)], program.name, program.parent)
 
-    def _run(self, arguments: list[str], what: str) -> None:
+    def _run(self, arguments: list[str], what: str, folder: Path) -> None:
+        # Temporary files of a compiler that is interrupted go with the folder.
         # Fixed programs, no shell; paths are swayless's own temporary files.
         try:
             done = subprocess.run(  # noqa: S603
@@ -88,7 +89,7 @@ class Compiler:
                 text=True,
                 check=False,
                 timeout=COMPILE_TIMEOUT_S,
-                env={**os.environ, "LC_ALL": "C"},
+                env={**os.environ, "LC_ALL": "C", "TMPDIR": str(folder)},
             )
         except subprocess.TimeoutExpired as error:
             raise VerificationError(

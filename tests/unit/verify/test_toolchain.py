@@ -33,7 +33,7 @@ def test_a_compiler_that_hangs_is_stopped(tmp_path, monkeypatch):
     slow = toolchain.Compiler("slow", ("sleep", "5"), ())
     monkeypatch.setattr(slow.__class__, "_run", toolchain.Compiler._run)
     with pytest.raises(VerificationError):
-        slow._run([], "x.c")
+        slow._run([], "x.c", tmp_path)
 
 
 @pytest.mark.parametrize("compiler", COMPILERS, ids=lambda compiler: compiler.name)
