@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from swayless.controller.number import NumberType, amplitudes_on_lattice
 from swayless.design.residual import residual_vibration
-from swayless.design.robustness import worst_residual
+from swayless.design.robustness import worst_residual_promised
 from swayless.design.shaper import FloatArray, Guarantee
 from swayless.errors import ControllerError
 
@@ -129,7 +129,7 @@ def quantised_taps(
     taps = Taps(delays_ticks[kept], numerators[kept] / one, tick_s, guarantee, number)
     mode = guarantee.mode
     worst = max(
-        worst_residual(taps, guarantee.band, damping_ratio=mode.damping_ratio),
+        worst_residual_promised(taps, guarantee),
         float(residual_vibration(taps, mode.frequency_hz, damping_ratio=mode.damping_ratio)),
     )
     if worst > guarantee.tolerance * (1.0 + GUARANTEE_SLACK):

@@ -19,6 +19,7 @@ from swayless.design.robustness import (
     proven_shaper,
     rope_length_interval_m,
     worst_residual,
+    worst_residual_promised,
 )
 from swayless.design.shaper import FloatArray, Guarantee, Impulses, Shaper
 
@@ -46,4 +47,5 @@ __all__ = [
     "solve_on_grid",
     "vibration_error",
     "worst_residual",
+    "worst_residual_promised",
 ]

@@ -31,6 +31,7 @@ WIDEST_RATIO = 16.0
 _SAMPLES_PER_PERIOD = 64
 _CUBIC_ERROR = 1e-6
 _PEAK_ROUNDS = 3  # errors of a peak's place: 1e-5 by the cubic, then 1e-6, 1e-11; the value is flat there
+_DAMPING_CHECKS = 65  # damping ratios of a range at which a promise is checked
 _EDGE_ROUNDS = 60  # of safeguarded Newton; bisection alone would be at rounding by then
 _EDGE_ACCURACY = 4e-15  # relative, of an edge's place
 
@@ -110,6 +111,37 @@ def worst_residual(impulses: Impulses, band: Band, *, damping_ratio: float = 0.0
     samples_hz = np.linspace(band.low_hz, band.high_hz, count)
     _, ratio = _profile(impulses, samples_hz, damping_ratio, ceiling=None)
     return float(ratio.max())
+
+
+def worst_residual_promised(impulses: Impulses, guarantee: Guarantee) -> float:
+    """Largest residual vibration in all bands of a guarantee, at all its damping ratios.
+
+    Parameters
+    ----------
+    impulses : Impulses
+        A shaper, or anything else with times and amplitudes.
+    guarantee : Guarantee
+        Where to look; its tolerance and its own worst residual are not read.
+
+    Returns
+    -------
+    float
+        Ratio.
+
+    Examples
+    --------
+    >>> from swayless.design import design_shaper
+    >>> ei = design_shaper("ei", Mode(1.0), tolerance=0.05)
+    >>> round(worst_residual_promised(ei, ei.guarantee), 9)
+    0.05
+    """
+    lowest, highest = guarantee.damping_ratios
+    damping_ratios = [lowest] if lowest == highest else np.linspace(lowest, highest, _DAMPING_CHECKS).tolist()
+    return max(
+        worst_residual(impulses, band, damping_ratio=damping_ratio)
+        for band in guarantee.bands
+        for damping_ratio in damping_ratios
+    )
 
 
 def guarantee_of(impulses: Impulses, mode: Mode, *, tolerance: float = DEFAULT_TOLERANCE) -> Guarantee:

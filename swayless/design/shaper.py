@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol, TypeAlias
 
 import numpy as np
@@ -19,24 +20,54 @@ AMPLITUDE_SUM_TOLERANCE = 1e-12
 
 @dataclass(frozen=True)
 class Guarantee:
-    """What impulses hold: at most `tolerance` residual vibration anywhere in `band`.
+    """What impulses hold: at most `tolerance` residual vibration anywhere in the bands, at every damping.
 
     Parameters
     ----------
     tolerance : float
         Largest residual vibration promised, as a ratio of the unshaped one (0.05 is 5 %).
     mode : Mode
-        The mode the impulses were designed for; `mode.damping_ratio` holds over the whole band.
+        The mode the impulses were designed for; `mode.damping_ratio` holds over all bands.
     band : Band
         The connected band around the mode's frequency in which the residual stays at or below `tolerance`.
     worst_residual_ratio : float
-        Largest residual vibration that occurs in the band, as a ratio.
+        Largest residual vibration that occurs in the bands, as a ratio.
+    further_bands : tuple of Band
+        Bands of further modes, by rising frequency, above `band` and apart from it.
+    highest_damping_ratio : float or None
+        The tolerance holds from `mode.damping_ratio` up to here; None stands for that one value.
+
+    Raises
+    ------
+    DesignError
+        If the bands do not rise, or the highest damping ratio is below the mode's or not below 1.
     """
 
     tolerance: float
     mode: Mode
     band: Band
     worst_residual_ratio: float
+    further_bands: tuple[Band, ...] = ()
+    highest_damping_ratio: float | None = None
+
+    def __post_init__(self) -> None:
+        for lower, upper in pairwise(self.bands):
+            if not lower.high_hz < upper.low_hz:
+                raise DesignError(f"bands must rise and be apart, got {lower} before {upper}")
+        lowest, highest = self.damping_ratios
+        if not lowest <= highest < 1.0:
+            raise DesignError(f"damping ratios {lowest!r} to {highest!r}: must rise and be below 1")
+
+    @property
+    def bands(self) -> tuple[Band, ...]:
+        """All bands, by rising frequency."""
+        return (self.band, *self.further_bands)
+
+    @property
+    def damping_ratios(self) -> tuple[float, float]:
+        """Lowest and highest damping ratio held."""
+        lowest = self.mode.damping_ratio
+        return lowest, lowest if self.highest_damping_ratio is None else self.highest_damping_ratio
 
 
 class Impulses(Protocol):

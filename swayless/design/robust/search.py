@@ -202,21 +202,6 @@ def _switches(coarse: Coarse) -> tuple[FloatArray, FloatArray]:
     return times, _alternating(times.size)
 
 
-def _peaks(optimum: Optimum, lines: Sequence[Line]):  # type: ignore
-    """Every local maximum of the residual vibration on every line: frequency, turn, moving, value."""
-    found = []
-    duration = float(optimum.times[-1])
-    for line in lines:
-        response = Response.of_times(optimum.times, line.damping_ratio)
-        peaks = response.peaks(optimum.amplitudes, line.low * duration, line.high * duration)
-        frequency = peaks.frequency / duration
-        edge = (np.abs(frequency - line.low) < 1e-9) | (np.abs(frequency - line.high) < 1e-9)
-        frequency = np.where(np.abs(frequency - line.low) < 1e-9, line.low, frequency)
-        frequency = np.where(np.abs(frequency - line.high) < 1e-9, line.high, frequency)
-        found.append((frequency, np.full(frequency.size, line.turn), ~edge, peaks.value))
-    return tuple(np.concatenate(parts) for parts in zip(*found, strict=True))
-
-
 def _corrected(optimum: Optimum, lines: Sequence[Line], rule: AmplitudeRule) -> tuple[Optimum, bool]:
     """Drop what has the wrong sign, add what is not covered; say whether anything changed."""
     heavy = optimum.weights > 0.0

@@ -17,7 +17,7 @@ from swayless.design.minimax.response import Response
 from swayless.design.robust.exact import WIDEST_RATIO, least, proven_duration, shortest, widest, worst_at_ends
 from swayless.design.robust.lines import Line
 from swayless.design.robust.stationary import Optimum
-from swayless.design.robustness import TOUCH_SLACK, worst_residual
+from swayless.design.robustness import TOUCH_SLACK, worst_residual_promised
 from swayless.design.shaper import Guarantee, Shaper
 from swayless.errors import DesignError
 from swayless.plant import Band, Mode
@@ -245,11 +245,12 @@ def _shaper(optimum: Optimum, band: Band, low: float, high: float, tolerance: fl
     """Give impulses their units, and prove on these numbers that they hold the band."""
     mode = Mode(math.sqrt(band.low_hz * band.high_hz), low)
     times_s, amplitudes = optimum.times / band.low_hz, optimum.amplitudes / optimum.amplitudes.sum()
-    claim = Shaper(times_s, amplitudes, family, Guarantee(tolerance, mode, band, tolerance), _SOURCE)
-    worst = max(worst_residual(claim, band, damping_ratio=damping) for damping in _dampings(low, high))
+    promise = Guarantee(tolerance, mode, band, tolerance, highest_damping_ratio=None if high == low else high)
+    claim = Shaper(times_s, amplitudes, family, promise, _SOURCE)
+    worst = worst_residual_promised(claim, promise)
     if worst > tolerance * (1.0 + TOUCH_SLACK):
         raise DesignError(f"{family} leaves {100 * worst:.10g} % where {100 * tolerance:g} % is promised")
-    return replace(claim, guarantee=Guarantee(tolerance, mode, band, worst))
+    return replace(claim, guarantee=replace(promise, worst_residual_ratio=worst))
 
 
 def _held_between(optimum: Optimum, lines: Sequence[Line], tolerance: float, rule: AmplitudeRule) -> Optimum:
