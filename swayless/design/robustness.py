@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from swayless.design.damping_range import worst_on_arc
 from swayless.design.residual import residual_at, squared_residual_and_slope
 from swayless.design.shaper import FloatArray, Guarantee, Impulses, Shaper
 from swayless.errors import DesignError
@@ -31,7 +32,6 @@ WIDEST_RATIO = 16.0
 _SAMPLES_PER_PERIOD = 64
 _CUBIC_ERROR = 1e-6
 _PEAK_ROUNDS = 3  # errors of a peak's place: 1e-5 by the cubic, then 1e-6, 1e-11; the value is flat there
-_DAMPING_CHECKS = 65  # damping ratios of a range at which a promise is checked
 _EDGE_ROUNDS = 60  # of safeguarded Newton; bisection alone would be at rounding by then
 _EDGE_ACCURACY = 4e-15  # relative, of an edge's place
 
@@ -135,13 +135,16 @@ def worst_residual_promised(impulses: Impulses, guarantee: Guarantee) -> float:
     >>> round(worst_residual_promised(ei, ei.guarantee), 9)
     0.05
     """
-    lowest, highest = guarantee.damping_ratios
-    damping_ratios = [lowest] if lowest == highest else np.linspace(lowest, highest, _DAMPING_CHECKS).tolist()
-    return max(
+    ends = guarantee.damping_ratios
+    worst = [
         worst_residual(impulses, band, damping_ratio=damping_ratio)
         for band in guarantee.bands
-        for damping_ratio in damping_ratios
-    )
+        for damping_ratio in dict.fromkeys(ends)
+    ]
+    if ends[0] < ends[1]:  # the worst of a range is on its border: see damping_range
+        edges_hz = [edge_hz for band in guarantee.bands for edge_hz in (band.low_hz, band.high_hz)]
+        worst += [worst_on_arc(impulses, edge_hz, ends).ratio for edge_hz in edges_hz]
+    return max(worst)
 
 
 def guarantee_of(impulses: Impulses, mode: Mode, *, tolerance: float = DEFAULT_TOLERANCE) -> Guarantee:

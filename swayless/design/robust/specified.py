@@ -5,57 +5,58 @@ Not for: families with a fixed recipe (`families`), nor for several shapers that
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
 
-import numpy as np
-
-from swayless.design.minimax import AmplitudeRule
-from swayless.design.minimax.response import Response
-from swayless.design.robust.exact import WIDEST_RATIO, least, proven_duration, shortest, widest, worst_at_ends
+from swayless.design.robust.between import with_points_between
+from swayless.design.robust.demand import (
+    RULES,
+    TOLERANCES,
+    WIDEST_RATIO,
+    Amplitudes,
+    Demand,
+    check_amplitudes,
+    check_duration,
+    check_tolerance,
+    damping_range,
+)
+from swayless.design.robust.exact import least, proven_duration, shortest, widest, worst_at_ends
 from swayless.design.robust.lines import Line
 from swayless.design.robust.stationary import Optimum
 from swayless.design.robustness import TOUCH_SLACK, worst_residual_promised
-from swayless.design.shaper import Guarantee, Shaper
+from swayless.design.shaper import Shaper
 from swayless.errors import DesignError
-from swayless.plant import Band, Mode
+from swayless.plant import Band
 
-TOLERANCES = (0.01, 0.2)
-"""Smallest and largest tolerance that is designed for."""
+__all__ = [
+    "RULES",
+    "TOLERANCES",
+    "Amplitudes",
+    "RobustDesign",
+    "fixed_duration",
+    "least_residual",
+    "specified_insensitivity",
+]
 
-Amplitudes: TypeAlias = Literal["positive", "bounded", "unity-magnitude"]
-
-RULES = {
-    "positive": AmplitudeRule.POSITIVE,
-    "bounded": AmplitudeRule.BOUNDED,
-    "unity-magnitude": AmplitudeRule.BOUNDED,
-}
-_LARGEST_DAMPING_RATIO = 0.2
-_DAMPING_CHECKS = 65  # damping ratios of a range at which a design is checked
-_DAMPING_ROUNDS = 5  # of further damping ratios inside a range
+_ROUNDS = 3  # of a tolerance lowered by what a design left above it
 _SOURCE = "Singhose, Seering and Singer (1996), specified insensitivity; Kriikku et al. (1997), section III"
 
 
 @dataclass(frozen=True, eq=False)
 class RobustDesign:
-    """A shaper that no other one of its kind can beat, and the proof.
+    """A shaper, and the proof of how near it is to the best of its kind.
 
     Parameters
     ----------
     shaper : Shaper
-        Its guarantee is the band asked for (fixed duration: the band found).
+        Its guarantee is what was asked for (fixed duration: the band found).
     lower_bound_s : float
-        No shaper of the kind that lasts this long or less holds the band at the tolerance: proved by a dual
-        polynomial, bounded over continuous time.
-    damping_ratio : tuple of float
-        Lowest and highest damping ratio held.
+        No shaper of the kind that lasts this long or less holds the guarantee: proved by a dual polynomial,
+        bounded over continuous time. For a given number of impulses: no bounded shaper at all.
     """
 
     shaper: Shaper
     lower_bound_s: float
-    damping_ratio: tuple[float, float]
 
     @property
     def gap_ratio(self) -> float:
@@ -64,28 +65,29 @@ class RobustDesign:
 
 
 def specified_insensitivity(
-    band: Band,
+    band: Band | Sequence[Band],
     *,
     tolerance: float = 0.05,
     damping_ratio: float | tuple[float, float] = 0.0,
     amplitudes: Amplitudes = "positive",
+    impulses: int | None = None,
 ) -> RobustDesign:
-    """Design the shortest shaper that leaves at most the tolerance over a band.
-
-    Bounded designs (every partial sum in 0 .. 1) come out with amplitudes +1, -1, ..., +1: the dual
-    polynomial has isolated extremes, between which the best level is 0 or 1. So "unity-magnitude" asks for
-    the same.
+    """Design the shortest shaper that leaves at most the tolerance over a band, or over several.
 
     Parameters
     ----------
-    band : Band
-        Undamped natural frequencies, high_hz / low_hz at most 8.
+    band : Band or sequence of Band
+        Undamped natural frequencies. high_hz / low_hz at most 8 for each band, 24 over all; bands that
+        overlap are one.
     tolerance : float
         Residual vibration as a ratio, 0.01 to 0.2.
     damping_ratio : float or (float, float)
-        One value, or the lowest and highest: 0 to 0.2.
+        One value, or the lowest and highest: 0 to 0.2, over all bands.
     amplitudes : {"positive", "bounded", "unity-magnitude"}
-        Sign rule.
+        Sign rule: all at least 0; every partial sum in 0 .. 1; or +1, -1, ..., +1. The best bounded shaper is
+        one of unity magnitude, so that the last two ask for the same.
+    impulses : int, optional
+        With "unity-magnitude": exactly so many, odd and at least 3. By default as many as it takes.
 
     Returns
     -------
@@ -94,7 +96,7 @@ def specified_insensitivity(
     Raises
     ------
     DesignError
-        If a value is out of range, or no optimum is found.
+        If a value is out of range, or so many impulses cannot hold the bands.
 
     References
     ----------
@@ -108,27 +110,25 @@ def specified_insensitivity(
     >>> design = specified_insensitivity(Band(0.8003, 1.1997), tolerance=0.05)
     >>> round(design.shaper.duration_s, 3), round(design.lower_bound_s, 3)
     (1.0, 1.0)
+
+    The hook and the load of one crane:
+
+    >>> design = specified_insensitivity([Band(0.2, 0.25), Band(0.8, 1.0)])
+    >>> round(design.shaper.duration_s, 3)
+    4.454
     """
-    low, high = _damping_range(damping_ratio)
-    rule = _checked(tolerance, amplitudes)
-    ratio = band.high_hz / band.low_hz
-    if ratio > WIDEST_RATIO:
-        raise DesignError(
-            f"band {band.low_hz:g} to {band.high_hz:g} Hz: the ratio {ratio:g} must be at most "
-            f"{WIDEST_RATIO:g}; split it into rows of a bank"
-        )
-    lines = [Line(1.0, ratio, damping) for damping in dict.fromkeys((low, high))]
-    try:
-        optimum = shortest(lines, tolerance, rule)
-        bound = proven_duration(optimum, lines, tolerance, rule)
-        bare = _held_between(optimum, lines, tolerance, rule)
-    except DesignError as error:
-        raise DesignError(
-            f"{amplitudes} shaper for {band.low_hz:g} to {band.high_hz:g} Hz at {100 * tolerance:g} %: "
-            f"{error}; another tolerance or band may do"
-        ) from None
-    shaper = _shaper(bare, band, low, high, tolerance, f"si-{amplitudes}")
-    return RobustDesign(shaper, bound / band.low_hz, (low, high))
+    check_tolerance(tolerance)
+    demand = Demand.of(band, damping_ratio, amplitudes, impulses)
+    goal = tolerance
+    for _ in range(_ROUNDS):
+        optimum, lines = _shortest_between(demand, goal)
+        shaper = _shaper(optimum, demand, tolerance, "si")
+        excess = shaper.guarantee.worst_residual_ratio / tolerance
+        if excess <= 1.0 + TOUCH_SLACK:
+            bound = proven_duration(optimum, lines, tolerance, demand.rule)
+            return RobustDesign(shaper, bound / demand.unit_hz)
+        goal /= excess
+    raise DesignError(f"{demand}: leaves {excess:.9g} times the tolerance {tolerance!r}")
 
 
 def fixed_duration(
@@ -138,6 +138,7 @@ def fixed_duration(
     tolerance: float = 0.05,
     damping_ratio: float = 0.0,
     amplitudes: Amplitudes = "positive",
+    impulses: int | None = None,
 ) -> RobustDesign:
     """Design the shaper of a given duration that holds the tolerance from `low_hz` up as far as any can.
 
@@ -147,12 +148,10 @@ def fixed_duration(
         Time of the last impulse, > 0.
     low_hz : float
         Lowest frequency to hold, > 0.
-    tolerance : float
-        Residual vibration as a ratio, 0.01 to 0.2.
+    tolerance, amplitudes, impulses
+        As for `specified_insensitivity`.
     damping_ratio : float
         Over the whole band, 0 to 0.2.
-    amplitudes : {"positive", "bounded", "unity-magnitude"}
-        Sign rule, as for `specified_insensitivity`.
 
     Returns
     -------
@@ -162,7 +161,8 @@ def fixed_duration(
     Raises
     ------
     DesignError
-        If the duration is too short for any band, or so long that 8 times `low_hz` is not the end.
+        If a value is out of range, the duration is too short for any band, or so long that 8 times `low_hz`
+        is not the end.
 
     References
     ----------
@@ -174,11 +174,11 @@ def fixed_duration(
     >>> round(design.shaper.guarantee.band.high_hz, 3)
     1.714
     """
-    damping, _ = _damping_range(damping_ratio)
-    rule = _checked(tolerance, amplitudes)
-    if not (math.isfinite(duration_s) and duration_s > 0.0):
-        raise DesignError(f"duration_s = {duration_s!r}: must be finite and > 0")
-    duration = duration_s * low_hz
+    check_duration(duration_s)
+    check_tolerance(tolerance)
+    check_amplitudes(amplitudes, impulses)
+    damping, _ = damping_range(damping_ratio)
+    rule, duration = RULES[amplitudes], duration_s * Band(low_hz, low_hz).low_hz
     narrow, wide = worst_at_ends(duration, damping, tolerance, rule)
     if narrow > tolerance:
         raise DesignError(
@@ -191,28 +191,30 @@ def fixed_duration(
             "more; ask for the shortest shaper of the band you need instead"
         )
     optimum = widest(duration, damping, tolerance, rule)
-    ratio = float(optimum.frequency[-1])
-    band, lines = Band(low_hz, low_hz * ratio), [Line(1.0, ratio, damping)]
-    bound = proven_duration(optimum, lines, tolerance, rule)
-    shaper = _shaper(optimum, band, damping, damping, tolerance, f"fd-{amplitudes}")
-    return RobustDesign(shaper, bound / low_hz, (damping, damping))
+    band = Band(low_hz, low_hz * min(float(optimum.frequency[-1]), WIDEST_RATIO))
+    demand = Demand.of(band, damping, amplitudes, impulses)
+    bound = proven_duration(optimum, demand.lines, tolerance, rule)
+    return RobustDesign(_shaper(optimum, demand, tolerance, "fd"), bound / demand.unit_hz)
 
 
 def least_residual(
-    duration_s: float, band: Band, *, damping_ratio: float = 0.0, amplitudes: Amplitudes = "positive"
+    duration_s: float,
+    band: Band | Sequence[Band],
+    *,
+    damping_ratio: float = 0.0,
+    amplitudes: Amplitudes = "positive",
+    impulses: int | None = None,
 ) -> RobustDesign:
-    """Design the shaper of a given duration that leaves the least worst residual over a band.
+    """Design the shaper of a given duration that leaves the least worst residual over a band, or several.
 
     Parameters
     ----------
     duration_s : float
         Time of the last impulse, > 0.
-    band : Band
-        Undamped natural frequencies, high_hz / low_hz at most 8.
+    band, amplitudes, impulses
+        As for `specified_insensitivity`.
     damping_ratio : float
-        Over the whole band, 0 to 0.2.
-    amplitudes : {"positive", "bounded", "unity-magnitude"}
-        Sign rule, as for `specified_insensitivity`.
+        Over all bands, 0 to 0.2.
 
     Returns
     -------
@@ -222,7 +224,7 @@ def least_residual(
     Raises
     ------
     DesignError
-        If a value is out of range, or no optimum is found.
+        If a value is out of range.
 
     Examples
     --------
@@ -230,80 +232,22 @@ def least_residual(
     >>> round(design.shaper.guarantee.tolerance, 4)
     0.05
     """
-    damping, _ = _damping_range(damping_ratio)
-    rule = _checked(TOLERANCES[0], amplitudes)
-    if not (math.isfinite(duration_s) and duration_s > 0.0):
-        raise DesignError(f"duration_s = {duration_s!r}: must be finite and > 0")
-    lines = [Line(1.0, band.high_hz / band.low_hz, damping)]
-    optimum = least(lines, duration_s * band.low_hz, TOLERANCES[0], rule)
-    bound = proven_duration(optimum, lines, optimum.worst, rule)
-    shaper = _shaper(optimum, band, damping, damping, optimum.worst, f"fd-{amplitudes}")
-    return RobustDesign(shaper, bound / band.low_hz, (damping, damping))
+    check_duration(duration_s)
+    demand = Demand.of(band, damping_range(damping_ratio), amplitudes, impulses)
+    optimum = least(demand.lines, duration_s * demand.unit_hz, TOLERANCES[0], demand.rule)
+    bound = proven_duration(optimum, demand.lines, optimum.worst, demand.rule)
+    return RobustDesign(_shaper(optimum, demand, optimum.worst, "fd"), bound / demand.unit_hz)
 
 
-def _shaper(optimum: Optimum, band: Band, low: float, high: float, tolerance: float, family: str) -> Shaper:
-    """Give impulses their units, and prove on these numbers that they hold the band."""
-    mode = Mode(math.sqrt(band.low_hz * band.high_hz), low)
-    times_s, amplitudes = optimum.times / band.low_hz, optimum.amplitudes / optimum.amplitudes.sum()
-    promise = Guarantee(tolerance, mode, band, tolerance, highest_damping_ratio=None if high == low else high)
+def _shortest_between(demand: Demand, tolerance: float) -> tuple[Optimum, list[Line]]:
+    """Find the shortest impulses for all damping ratios, and the lines that they were found for."""
+    return with_points_between(demand.lines, lambda lines: shortest(lines, tolerance, demand.rule))
+
+
+def _shaper(optimum: Optimum, demand: Demand, tolerance: float, family: str) -> Shaper:
+    """Give impulses their units, and prove on these very numbers what they leave in the bands."""
+    times_s, amplitudes = optimum.times / demand.unit_hz, optimum.amplitudes / optimum.amplitudes.sum()
+    promise = demand.promise(tolerance)
     claim = Shaper(times_s, amplitudes, family, promise, _SOURCE)
     worst = worst_residual_promised(claim, promise)
-    if worst > tolerance * (1.0 + TOUCH_SLACK):
-        raise DesignError(f"{family} leaves {100 * worst:.10g} % where {100 * tolerance:g} % is promised")
     return replace(claim, guarantee=replace(promise, worst_residual_ratio=worst))
-
-
-def _held_between(optimum: Optimum, lines: Sequence[Line], tolerance: float, rule: AmplitudeRule) -> Optimum:
-    """Hold the tolerance at every damping ratio between two lines, where the ends do not see to it.
-
-    Lines are added where the residual is worst; what is then left over by the damping ratios between them is
-    taken from the tolerance.
-    """
-    low, high = lines[0], lines[-1]
-    goal = tolerance
-    for _ in range(_DAMPING_ROUNDS):
-        worst, damping = max(
-            (_worst_on(optimum, replace(low, damping_ratio=ratio)), ratio)
-            for ratio in _dampings(low.damping_ratio, high.damping_ratio)
-        )
-        if worst <= tolerance * (1.0 + TOUCH_SLACK):
-            return optimum
-        if damping in [line.damping_ratio for line in lines]:
-            goal *= tolerance / worst * (1.0 - TOUCH_SLACK)
-        lines = [*lines, replace(low, damping_ratio=damping)]
-        optimum = shortest(lines, goal, rule)
-    raise DesignError(
-        f"damping ratios {low.damping_ratio:g} to {high.damping_ratio:g} leave {100 * worst:.6g} %"
-    )
-
-
-def _worst_on(optimum: Optimum, line: Line) -> float:
-    """Largest residual vibration on a line."""
-    response = Response.of_times(optimum.times, line.damping_ratio)
-    low, high = line.low * optimum.duration, line.high * optimum.duration
-    return response.peaks(optimum.amplitudes, low, high).worst
-
-
-def _dampings(low: float, high: float) -> list[float]:
-    """Damping ratios at which a range is checked."""
-    return [low] if low == high else np.linspace(low, high, _DAMPING_CHECKS).tolist()
-
-
-def _damping_range(damping_ratio: float | tuple[float, float]) -> tuple[float, float]:
-    """Lowest and highest damping ratio, checked."""
-    low, high = damping_ratio if isinstance(damping_ratio, tuple) else (damping_ratio, damping_ratio)
-    if not 0.0 <= low <= high <= _LARGEST_DAMPING_RATIO:
-        raise DesignError(
-            f"damping_ratio = {damping_ratio!r}: must be 0 to {_LARGEST_DAMPING_RATIO:g}, lowest first"
-        )
-    return low, high
-
-
-def _checked(tolerance: float, amplitudes: str) -> AmplitudeRule:
-    """Check the tolerance, and find the rule by its name."""
-    lowest, highest = TOLERANCES
-    if not lowest <= tolerance <= highest:
-        raise DesignError(f"tolerance = {tolerance!r}: must be {lowest:g} to {highest:g}")
-    if amplitudes not in RULES:
-        raise DesignError(f"amplitudes = {amplitudes!r}: must be one of {', '.join(RULES)}")
-    return RULES[amplitudes]
