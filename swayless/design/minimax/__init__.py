@@ -1,17 +1,21 @@
-"""Amplitudes at fixed times that leave the least residual vibration over a band, with proof of optimality.
+"""Amplitudes at fixed times that leave the least residual vibration over bands, with proof of optimality.
 
-The worst residual vibration over a band is convex in the amplitudes, so the optimum found is the global one.
+The worst residual vibration over bands is convex in the amplitudes, so the optimum found is the global one.
 It is found by exchange: a small linear program over a few times and a few half-planes (a frequency and a
-phase each) is solved; half-planes are added where its amplitudes break the bound inside the band, and times
+phase each) is solved; half-planes are added where its amplitudes break the bound inside a band, and times
 are added where its dual values say that they would help.
 Not for: times that move continuously (`families`), or for choosing how long a design is (`grid`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import NamedTuple
+
 import numpy as np
 
 from swayless.design.minimax.exchange import Exchange, Minimax
+from swayless.design.minimax.held import Held
 from swayless.design.minimax.program import AmplitudeRule
 from swayless.design.minimax.response import IndexArray, Response
 from swayless.design.shaper import FloatArray
@@ -19,9 +23,24 @@ from swayless.errors import DesignError
 from swayless.plant import Band, Mode
 
 
+class HeldLine(NamedTuple):
+    """A band to hold at one damping ratio.
+
+    Parameters
+    ----------
+    band : Band
+        Undamped natural frequencies; low_hz may equal high_hz.
+    damping_ratio : float
+        At least 0 and below 1.
+    """
+
+    band: Band
+    damping_ratio: float
+
+
 def minimax_amplitudes(
     times_s: FloatArray,
-    band: Band,
+    band: Band | Sequence[HeldLine],
     *,
     damping_ratio: float = 0.0,
     rule: AmplitudeRule = AmplitudeRule.POSITIVE,
@@ -30,16 +49,16 @@ def minimax_amplitudes(
     target_ratio: float = 0.0,
     least_last: float = 0.0,
 ) -> Minimax:
-    """Find amplitudes at the times offered that minimise the worst residual vibration over a band.
+    """Find amplitudes at the times offered that minimise the worst residual vibration over bands.
 
     Parameters
     ----------
     times_s : ndarray, shape (n,)
         Times offered, rising, at least 2. The vibration is read at the last of them, used or not.
-    band : Band
-        Undamped natural frequencies to hold.
+    band : Band or sequence of HeldLine
+        Undamped natural frequencies to hold, or several bands, each at its own damping ratio.
     damping_ratio : float
-        Of the mode, over the whole band; at least 0 and below 1.
+        Of the mode, over a single band; at least 0 and below 1.
     rule : AmplitudeRule
         Sign rule of the amplitudes.
     equalities : ndarray, shape (p, n), optional
@@ -63,7 +82,7 @@ def minimax_amplitudes(
     Raises
     ------
     DesignError
-        If the times or the damping ratio are out of range, or HiGHS fails.
+        If the times or a damping ratio are out of range, or HiGHS fails.
 
     References
     ----------
@@ -80,16 +99,20 @@ def minimax_amplitudes(
     """
     if times_s.size < 2 or np.any(np.diff(times_s) <= 0.0):
         raise DesignError(f"times_s = {times_s.tolist()}: must be at least two, rising")
-    if not 0.0 <= damping_ratio < 1.0:
-        raise DesignError(f"damping_ratio = {damping_ratio!r}: must be at least 0 and below 1")
+    lines = [HeldLine(band, damping_ratio)] if isinstance(band, Band) else band
+    for line in lines:
+        if not 0.0 <= line.damping_ratio < 1.0:
+            raise DesignError(f"damping_ratio = {line.damping_ratio!r}: must be at least 0 and below 1")
     taps = np.unique(np.linspace(0, times_s.size - 1, 12).astype(np.intp)) if start is None else start
     if least_last > 0.0:
         taps = np.union1d(taps, times_s.size - 1)
     duration_s = float(times_s[-1] - times_s[0])
     exchange = Exchange(
-        response=Response.of_times(times_s, damping_ratio),
-        low=band.low_hz * duration_s,
-        high=band.high_hz * duration_s,
+        held=Held(
+            exponents=np.stack([Response.of_times(times_s, line.damping_ratio).exponents for line in lines]),
+            low=np.array([line.band.low_hz * duration_s for line in lines]),
+            high=np.array([line.band.high_hz * duration_s for line in lines]),
+        ),
         rule=rule,
         equalities=np.empty((0, times_s.size)) if equalities is None else equalities,
         target_ratio=target_ratio,
@@ -137,4 +160,4 @@ def zero_equalities(times_s: FloatArray, mode: Mode, *, derivatives: int = 0) ->
     return np.concatenate([moments.real, moments.imag])
 
 
-__all__ = ["AmplitudeRule", "Minimax", "minimax_amplitudes", "zero_equalities"]
+__all__ = ["AmplitudeRule", "HeldLine", "Minimax", "minimax_amplitudes", "zero_equalities"]

@@ -11,9 +11,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from swayless.design.minimax.polish import independent, meet, polish
+from swayless.design.minimax.held import Held, HeldPeaks
+from swayless.design.minimax.polish import Deciding, independent, meet, polish
 from swayless.design.minimax.program import AmplitudeRule, Vertex, solve_program
-from swayless.design.minimax.response import IndexArray, Peaks, Response
+from swayless.design.minimax.response import IndexArray
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 
@@ -42,7 +43,7 @@ class Minimax:
     amplitudes : ndarray, shape (k,)
         Their amplitudes, none 0, in sum 1.
     worst_residual_ratio : float
-        Largest residual vibration of these amplitudes over the band; infinite if they miss an equality.
+        Largest residual vibration of these amplitudes over the bands; infinite if they miss an equality.
     lower_bound_ratio : float
         No amplitudes at the times offered do better; infinite if none meet the equalities, 0 if the target
         was reached before anything was proved.
@@ -60,10 +61,8 @@ class Exchange:
 
     Parameters
     ----------
-    response : Response
-        Of all n times offered.
-    low, high : float
-        Ends of the band, in cycles per duration.
+    held : Held
+        The bands, and what unit impulses at all n times offered leave on them.
     rule : AmplitudeRule
         Sign rule of the amplitudes.
     equalities : ndarray, shape (p, n)
@@ -74,24 +73,25 @@ class Exchange:
         Smallest amplitude at the last time.
     taps : ndarray of int
         Indices of the times in use; grows.
-    frequency, phase : ndarray, shape (m,)
-        Half-planes in use: a frequency in cycles per duration and a phase in radians each; they grow.
+    line, frequency, phase : ndarray, shape (m,)
+        Half-planes in use: the index of a line, a frequency in cycles per duration and a phase in radians
+        each; they grow.
     """
 
-    response: Response
-    low: float
-    high: float
+    held: Held
     rule: AmplitudeRule
     equalities: FloatArray
     target_ratio: float
     least_last: float
     taps: IndexArray
+    line: IndexArray = field(init=False)
     frequency: FloatArray = field(init=False)
     phase: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
-        self.frequency = np.repeat(np.linspace(self.low, self.high, _FIRST_FREQUENCIES), 4)
-        self.phase = np.tile(np.arange(4) * (math.pi / 2.0), _FIRST_FREQUENCIES)
+        line, frequency = self.held.spread(_FIRST_FREQUENCIES)
+        self.line, self.frequency = np.repeat(line, 4), np.repeat(frequency, 4)
+        self.phase = np.tile(np.arange(4) * (math.pi / 2.0), line.size)
 
     @property
     def unit(self) -> float:
@@ -107,7 +107,7 @@ class Exchange:
             missed = vertex.shortfall > _SHORTFALL
             short = missed or vertex.level * self.unit > self.target_ratio * (1.0 + _GAP)
             further = self._further_times(vertex) if short else self.taps[:0]
-            peaks = self.response.of(self.taps).peaks(vertex.amplitudes, self.low, self.high)
+            peaks = self.held.of(self.taps).peaks(vertex.amplitudes)
             bound = 0.0 if not short else math.inf if missed else vertex.level * self.unit
             if short and not further.size and (missed or self.target_ratio > 0.0):
                 return Minimax(self.taps, vertex.amplitudes, math.inf if missed else peaks.worst, bound)
@@ -117,13 +117,15 @@ class Exchange:
                 taps, amplitudes = self._settled(self.taps, vertex.amplitudes, deciding)
                 return Minimax(taps, amplitudes, self._worst(taps, amplitudes), bound)
             self.taps = np.union1d(self.taps, further)
+            self.line = np.append(self.line, peaks.line[broken])
             self.frequency = np.append(self.frequency, peaks.frequency[broken])
             self.phase = np.append(self.phase, np.angle(peaks.value[broken]))
         raise DesignError(f"{self.taps.size} amplitudes did not settle in {_ROUNDS} rounds of exchange")
 
     def _cuts(self, taps: IndexArray | slice, chosen: NDArray[np.bool_] | slice = slice(None)) -> FloatArray:
         """Half-planes as rows over the times `taps`: the part of the residual vibration in their phase."""
-        columns = np.exp(np.multiply.outer(self.frequency[chosen], self.response.exponents[taps]))
+        exponents = self.held.exponents[:, taps][self.line[chosen]]
+        columns = np.exp(self.frequency[chosen, np.newaxis] * exponents)
         rows: FloatArray = (columns * np.exp(-1j * self.phase[chosen])[:, np.newaxis]).real / self.unit
         return rows
 
@@ -144,15 +146,19 @@ class Exchange:
         highest = (gain >= np.append(0.0, gain[:-1])) & (gain >= np.append(gain[1:], 0.0))
         return np.flatnonzero(highest & (gain > _GAP))
 
-    def _deciding(self, vertex: Vertex, peaks: Peaks) -> FloatArray:
-        """Peaks that hold the optimum up: rows of frequency, weight, and 1 where inside the band."""
-        nearest = np.abs(np.subtract.outer(self.frequency, peaks.frequency)).argmin(axis=1)
-        weights = np.bincount(nearest, vertex.cut_weights, peaks.frequency.size)
-        moving = (peaks.frequency > self.low) & (peaks.frequency < self.high)
-        return np.stack([peaks.frequency, weights, moving])[:, weights > _GAP]
+    def _deciding(self, vertex: Vertex, peaks: HeldPeaks) -> Deciding:
+        """Peaks that hold the optimum up, with the weights of the half-planes nearest to them."""
+        away = np.abs(np.subtract.outer(self.frequency, peaks.frequency))
+        away[np.not_equal.outer(self.line, peaks.line)] = np.inf
+        nearest = away.argmin(axis=1)
+        weights = np.zeros(peaks.frequency.size)
+        np.add.at(weights, nearest, vertex.cut_weights)
+        heavy = weights > _GAP
+        moving = self.held.inside(peaks)
+        return Deciding(peaks.line[heavy], peaks.frequency[heavy], weights[heavy], moving[heavy])
 
     def _settled(
-        self, taps: IndexArray, amplitudes: FloatArray, deciding: FloatArray
+        self, taps: IndexArray, amplitudes: FloatArray, deciding: Deciding
     ) -> tuple[IndexArray, FloatArray]:
         """Reduce to the times that the optimum uses, with amplitudes to machine precision."""
         used = self._used(amplitudes)
@@ -160,7 +166,7 @@ class Exchange:
             taps, amplitudes = taps[used], amplitudes[used]
             rows, targets = self._active(taps, amplitudes)
             amplitudes = meet(rows, targets, amplitudes)
-            polished = polish(self.response.of(taps), rows, targets, amplitudes, deciding)
+            polished = polish(self.held.exponents[:, taps], rows, targets, amplitudes, deciding)
             if polished is not None and self._keeps_limits(polished):
                 amplitudes = polished
             if self.rule is AmplitudeRule.BOUNDED:  # equalities that repeat each other leave rounding here
@@ -194,7 +200,7 @@ class Exchange:
         return within and bool(amplitudes[-1] > self.least_last - _AT_LIMIT)
 
     def _worst(self, taps: IndexArray, amplitudes: FloatArray) -> float:
-        """Largest residual vibration over the band; infinite if an equality or a limit is missed."""
+        """Largest residual vibration over the bands; infinite if an equality or a limit is missed."""
         missed = np.abs(self.equalities[:, taps] @ amplitudes).max(initial=0.0) > MISSED_EQUALITY
         wrong = missed or not self._keeps_limits(amplitudes)
-        return math.inf if wrong else self.response.of(taps).peaks(amplitudes, self.low, self.high).worst
+        return math.inf if wrong else self.held.of(taps).peaks(amplitudes).worst

@@ -7,9 +7,11 @@ solver took. Not for: finding what is active, which is `minimax`.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from swayless.design.minimax.response import Response
+from swayless.design.minimax.response import ComplexArray, IndexArray
 from swayless.design.shaper import FloatArray
 
 _STEPS = 12  # two or three are usual
@@ -26,12 +28,33 @@ finest grid leave 1e-5.
 """
 
 
+class Deciding(NamedTuple):
+    """Peaks that hold an optimum up.
+
+    Parameters
+    ----------
+    line : ndarray of int, shape (m,)
+        Index of the line that a peak lies on.
+    frequency : ndarray, shape (m,)
+        Where it lies, in cycles per duration.
+    weights : ndarray, shape (m,)
+        Dual values, > 0.
+    moving : ndarray, shape (m,)
+        Whether the peak moves with the amplitudes (1) or stays at an end of its line (0).
+    """
+
+    line: IndexArray
+    frequency: FloatArray
+    weights: FloatArray
+    moving: FloatArray
+
+
 def polish(
-    response: Response,
+    exponents: ComplexArray,
     equalities: FloatArray,
     targets: FloatArray,
     amplitudes: FloatArray,
-    peaks: FloatArray,
+    peaks: Deciding,
 ) -> FloatArray | None:
     """Solve the optimality conditions for the amplitudes.
 
@@ -41,17 +64,16 @@ def polish(
 
     Parameters
     ----------
-    response : Response
-        Of the n impulses in use.
+    exponents : ndarray of complex, shape (lines, n)
+        `Response.exponents` of the n impulses in use, for every line.
     equalities : ndarray, shape (p, n)
         All that hold (the sum, the design's own, partial sums at a limit), orthonormal: see `independent`.
     targets : ndarray, shape (p,)
         Their right-hand sides.
     amplitudes : ndarray, shape (n,)
         Start.
-    peaks : ndarray, shape (3, m)
-        The peaks that decide: frequency in cycles per duration, weight (dual value, > 0), and whether the
-        peak moves with the amplitudes (1) or stays at an end of the band (0).
+    peaks : Deciding
+        The peaks that decide.
 
     Returns
     -------
@@ -63,18 +85,20 @@ def polish(
     --------
     The EI shaper for 5 %: three impulses in one period, and three peaks of equal height, the middle one free.
 
-    >>> response = Response.of_times(np.array([0.0, 0.5, 1.0]), 0.0)
+    >>> exponents = 2j * np.pi * np.array([[-1.0, -0.5, 0.0]])
     >>> rows, targets = independent(np.ones((1, 3)), np.ones(1))
-    >>> peaks = np.array([[0.80027462, 1.0, 1.19972538], [0.26, 0.48, 0.26], [0.0, 1.0, 0.0]])
-    >>> polish(response, rows, targets, np.array([0.26, 0.48, 0.26]), peaks).round(6)
+    >>> frequency, weights = np.array([0.80027462, 1.0, 1.19972538]), np.array([0.26, 0.48, 0.26])
+    >>> peaks = Deciding(np.zeros(3, np.intp), frequency, weights, np.array([0.0, 1.0, 0.0]))
+    >>> polish(exponents, rows, targets, np.array([0.26, 0.48, 0.26]), peaks).round(6)
     array([0.2625, 0.475 , 0.2625])
     """
-    frequency, weights, moving = peaks
-    value = response.columns(frequency) @ amplitudes
-    unknowns = [amplitudes, np.abs(value[:1]), weights, np.zeros(targets.size), np.angle(value), frequency]
+    of_peaks = exponents[peaks.line]
+    value = np.exp(peaks.frequency[:, np.newaxis] * of_peaks) @ amplitudes
+    worst, prices = np.abs(value[:1]), np.zeros(targets.size)
+    unknowns = [amplitudes, worst, peaks.weights, prices, np.angle(value), peaks.frequency]
     ends = np.cumsum([part.size for part in unknowns])[:-1]
     for _ in range(_STEPS):
-        slope, curvature = _derivatives(unknowns, response, equalities, targets, moving)
+        slope, curvature = _derivatives(unknowns, of_peaks, equalities, targets, peaks.moving)
         steps = np.split(np.linalg.lstsq(curvature, -slope, rcond=_FREE)[0], ends)
         unknowns = [part + step for part, step in zip(unknowns, steps, strict=True)]
         rest = np.abs(slope).max()
@@ -98,16 +122,16 @@ def meet(equalities: FloatArray, targets: FloatArray, amplitudes: FloatArray) ->
 
 def _derivatives(
     unknowns: list[FloatArray],
-    response: Response,
+    exponents: ComplexArray,
     equalities: FloatArray,
     targets: FloatArray,
     moving: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
     """First derivatives of L, which must vanish, and second ones, in the order of the unknowns."""
     amplitudes, worst, weights, prices, phase, frequency = unknowns
-    columns = response.columns(frequency) * np.exp(-1j * phase)[:, np.newaxis]
-    sloped = columns * response.exponents
-    value, slope, bend = columns @ amplitudes, sloped @ amplitudes, sloped @ (response.exponents * amplitudes)
+    columns = np.exp(frequency[:, np.newaxis] * exponents - 1j * phase[:, np.newaxis])
+    sloped = columns * exponents
+    value, slope, bend = (table @ amplitudes for table in (columns, sloped, sloped * exponents))
     first = [
         weights @ columns.real + prices @ equalities,
         1.0 - weights.sum(keepdims=True),

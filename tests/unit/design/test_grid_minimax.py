@@ -10,7 +10,7 @@ from scipy.optimize import linprog
 
 from swayless.design.families import design_shaper
 from swayless.design.minimax import AmplitudeRule, minimax_amplitudes, zero_equalities
-from swayless.design.minimax.polish import independent, polish
+from swayless.design.minimax.polish import Deciding, independent, polish
 from swayless.design.minimax.program import solve_program
 from swayless.design.minimax.response import Response
 from swayless.errors import DesignError
@@ -175,10 +175,12 @@ def test_program_tells_by_how_much_equalities_are_missed():
 
 
 def test_polish_gives_up_where_the_ratio_has_a_corner():
-    response = Response.of_times(np.array([0.0, 0.5, 1.0]), 0.0)
+    exponents = 2j * np.pi * np.array([[-1.0, -0.5, 0.0]])
     rows, targets = independent(np.ones((1, 3)), np.ones(1))
-    peaks = np.array([[1.0], [1.0], [1.0]])  # the least at 1 Hz is 0, where the phase turns without limit
-    assert polish(response, rows, targets, np.array([0.4, 0.3, 0.3]), peaks) is None
+    peaks = Deciding(
+        np.zeros(1, np.intp), np.ones(1), np.ones(1), np.ones(1)
+    )  # the least at 1 Hz is 0, where the phase turns without limit
+    assert polish(exponents, rows, targets, np.array([0.4, 0.3, 0.3]), peaks) is None
 
 
 @pytest.mark.parametrize("times_s", [[0.0], [0.0, 1.0, 1.0], [1.0, 0.0]])
