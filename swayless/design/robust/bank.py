@@ -1,73 +1,81 @@
 """Rows that share a range of frequencies: as few as a tolerance allows, or as exact as their number allows.
 
-Not for: rope lengths, knobs and hysteresis (`swayless.machine`).
+Who designs a row, in continuous time or on ticks, is a `RowDesigner`; where rows must overlap is one mapping.
+Not for: rope lengths, knobs and hysteresis (`swayless.machine`), nor for single rows (`rows`).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
 
-from swayless.design.minimax import AmplitudeRule
-from swayless.design.robust.exact import WIDEST_RATIO, widest, worst_at_ends
-from swayless.design.robust.specified import (
-    RULES,
-    TOLERANCES,
-    Amplitudes,
-    RobustDesign,
-    fixed_duration,
-    least_residual,
-    specified_insensitivity,
-)
+import numpy as np
+
+from swayless.design.robust.chain import WIDEST_RATIO, Chain, next_start, same
+from swayless.design.robust.crossing import crossing
+from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
+from swayless.design.robust.specified import TOLERANCES
+from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 from swayless.plant import Band
 
-_MOST_ROWS = 64  # more positions than a knob has
-_TOLERANCE_ACCURACY = 1e-9  # relative
-_EXCESS_ACCURACY = 1e-9  # of the logarithm of the end reached, never below it
-_ON_TIME = 1e-9  # relative: a row this little longer than allowed is as long, by rounding
-_TRIALS = 60
+__all__ = ["MOST_ROWS", "ContinuousRows", "RowDesigner", "TickRows", "cover", "cover_with"]
+
+MOST_ROWS = 8
+"""Positions of a knob, which no bank exceeds."""
+
+_ON_TIME = 1e-9  # relative: a row this little longer, or looser, than allowed is so by rounding
+_EQUAL = 1e-9  # of the logs of the tolerance and of the last row's duration
+_STEEPNESS = 0.5  # a usual d log(duration) / d log(tolerance), of the first steps
+_UNBALANCED = 1e-6  # relative: rows on ticks are balanced until they leave the same to this
+_BALANCING_ROUNDS = 3
+_SUGGESTION = 1e-3  # relative, of a duration in a message
+_LONGEST = 20.0  # times a duration that is too short: how far a message looks for one that is not
 
 
 def cover(
     low_hz: float,
     high_hz: float,
+    rows: RowDesigner[Row],
     *,
     tolerance: float = 0.05,
     duration_s: float | None = None,
     longest_duration_s: float | None = None,
-    damping_ratio: float = 0.0,
-    amplitudes: Amplitudes = "positive",
-) -> tuple[RobustDesign, ...]:
+    next_start_hz: Callable[[float], float] = same,
+    on_row: Callable[[int], None] | None = None,
+) -> tuple[Row, ...]:
     """Cover a range of frequencies with the fewest rows that hold a tolerance.
 
-    Each row starts where the one before ends and reaches as far as any can. No bank has fewer rows: a row
+    Each row starts where the one before lets it, and reaches as far as any can. No bank has fewer rows: a row
     that starts lower reaches no farther.
 
     Parameters
     ----------
     low_hz, high_hz : float
-        The range, 0 < low_hz < high_hz.
+        The range, 0 < low_hz <= high_hz.
+    rows : RowDesigner
+        `ContinuousRows` or `TickRows`.
     tolerance : float
         Residual vibration as a ratio, 0.01 to 0.2.
     duration_s : float, optional
-        Duration of all rows, > 0. The last row, which need not reach so far, leaves the least instead.
+        Duration of all rows, > 0. The last row, which need not reach so far, leaves the least instead, down
+        to 1 %; if it can leave even that, it reaches beyond the range.
     longest_duration_s : float, optional
         Duration of all rows but the last, which is as short as what is left allows. Give one of the two.
-    damping_ratio : float
-        Over the whole range, 0 to 0.2.
-    amplitudes : {"positive", "bounded", "unity-magnitude"}
-        Sign rule, as for `specified_insensitivity`.
+    next_start_hz : callable
+        Where a row must start, of where the one before ends: lower, if rows must overlap. It must not fall.
+    on_row : callable, optional
+        Called with the number of rows whenever one is done.
 
     Returns
     -------
-    tuple of RobustDesign
-        Rows by rising frequency; their bands meet.
+    tuple
+        Rows by rising frequency.
 
     Raises
     ------
     DesignError
-        If a value is out of range, the duration is too short, or more than 64 rows were needed.
+        If a value is out of range, the duration does not suit, or more than 8 rows were needed.
 
     References
     ----------
@@ -75,65 +83,58 @@ def cover(
 
     Examples
     --------
-    >>> rows = cover(0.5, 1.0, duration_s=1.2, amplitudes="bounded")
+    >>> rows = cover(0.5, 1.0, ContinuousRows("bounded"), duration_s=1.2)
     >>> [round(row.shaper.guarantee.band.high_hz, 3) for row in rows]
     [0.721, 1.0]
     """
-    duration = longest_duration_s if duration_s is None else duration_s
-    if duration is None or (duration_s is not None and longest_duration_s is not None):
+    allowed_s = longest_duration_s if duration_s is None else duration_s
+    if allowed_s is None or (duration_s is not None and longest_duration_s is not None):
         raise DesignError("a bank needs either duration_s or longest_duration_s")
-    Band(low_hz, high_hz)
-    rows: list[RobustDesign] = []
-    start_hz = low_hz
-    while len(rows) < _MOST_ROWS:
-        rest = _rest(start_hz, high_hz, tolerance, duration, damping_ratio, amplitudes)
-        if rest is not None:
-            shortened = duration_s is None
-            last = (
-                rest
-                if shortened
-                else least_residual(
-                    duration, rest.shaper.guarantee.band, damping_ratio=damping_ratio, amplitudes=amplitudes
-                )
-            )
-            return (*rows, last)
-        row = fixed_duration(
-            duration, start_hz, tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes
-        )
-        rows.append(row)
-        start_hz = row.shaper.guarantee.band.high_hz
-    raise DesignError(
-        f"{low_hz:g} to {high_hz:g} Hz at {tolerance:g}: more than {_MOST_ROWS} rows of {duration:g} s; "
-        "a longer duration or a larger tolerance needs fewer"
-    )
+    design_rest = _shortest_rest if duration_s is None else _least_rest
+    start_hz, made = Band(low_hz, high_hz).low_hz, list[Row]()
+    while True:
+        rest = design_rest(rows, Band(start_hz, high_hz), tolerance, allowed_s)
+        made.append(rows.widest(allowed_s, start_hz, tolerance) if rest is None else rest)
+        if on_row is not None:
+            on_row(len(made))
+        end_hz = rows.promise_of(made[-1]).band.high_hz
+        if rest is not None or end_hz >= high_hz:
+            return tuple(made)
+        if len(made) == MOST_ROWS:
+            chain = Chain(rows.ideal, low_hz, high_hz, next_start_hz)
+            raise DesignError(_too_many(chain, tolerance, allowed_s))
+        start_hz = next_start(next_start_hz, start_hz, end_hz)
 
 
 def cover_with(
-    rows: int,
+    number: int,
     low_hz: float,
     high_hz: float,
+    rows: RowDesigner[Row],
     *,
     duration_s: float,
-    damping_ratio: float = 0.0,
-    amplitudes: Amplitudes = "positive",
-) -> tuple[RobustDesign, ...]:
+    next_start_hz: Callable[[float], float] = same,
+    on_row: Callable[[int], None] | None = None,
+) -> tuple[Row, ...]:
     """Cover a range of frequencies with a number of rows at the smallest equal tolerance.
 
     Parameters
     ----------
-    rows : int
-        Number of rows, at least 1.
+    number : int
+        Of rows, 1 to 8.
     low_hz, high_hz : float
-        The range, 0 < low_hz < high_hz.
+        The range, 0 < low_hz <= high_hz.
+    rows : RowDesigner
+        `ContinuousRows`, or `TickRows`: then the rows are balanced by what their taps leave.
     duration_s : float
         Duration of all rows, > 0.
-    damping_ratio, amplitudes
+    next_start_hz, on_row
         As for `cover`.
 
     Returns
     -------
-    tuple of RobustDesign
-        Rows by rising frequency; their bands meet.
+    tuple
+        Rows by rising frequency. The tolerance of the bank is the largest of theirs.
 
     Raises
     ------
@@ -142,83 +143,94 @@ def cover_with(
 
     Examples
     --------
-    >>> rows = cover_with(2, 0.5, 1.0, duration_s=1.1, amplitudes="bounded")
-    >>> round(rows[0].shaper.guarantee.tolerance, 4)
-    0.0769
+    >>> rows = cover_with(2, 0.5, 1.0, ContinuousRows("bounded"), duration_s=1.1)
+    >>> [round(row.shaper.guarantee.tolerance, 4) for row in rows]
+    [0.0769, 0.0769]
     """
-    if rows < 1:
-        raise DesignError(f"rows = {rows!r}: must be at least 1")
-    program = _Reach(rows, low_hz, high_hz, duration_s, damping_ratio, RULES[amplitudes])
-    ends = [(tolerance, program.excess(tolerance)) for tolerance in TOLERANCES]
-    what = f"rows = {rows}: {duration_s:g} s hold {low_hz:g} to {high_hz:g} Hz"
-    if ends[0][1] >= 0.0:
-        raise DesignError(f"{what} at {TOLERANCES[0]:g} already; fewer rows or a shorter duration do")
-    if ends[1][1] < 0.0:
-        raise DesignError(f"{what} not even at {TOLERANCES[1]:g}; more rows or a longer duration do")
-    return cover(
-        low_hz,
-        high_hz,
-        tolerance=program.least_tolerance(*ends),
-        duration_s=duration_s,
-        damping_ratio=damping_ratio,
-        amplitudes=amplitudes,
+    if not 1 <= number <= MOST_ROWS:
+        raise DesignError(f"rows = {number!r}: must be 1 to {MOST_ROWS}")
+    chain = Chain(rows.ideal, Band(low_hz, high_hz).low_hz, high_hz, next_start_hz)
+    handicap = np.zeros(number)  # log of what the taps of a row leave, over what the ideal row does
+    banks: list[tuple[float, tuple[Row, ...]]] = []
+    for _ in range(_BALANCING_ROUNDS):
+        size = _least_tolerance(chain, handicap, duration_s)
+        made = list[Row]()
+        for band in chain.bands(np.exp(size - handicap).tolist(), duration_s):
+            last = _least_rest(rows, band, TOLERANCES[1], duration_s) if band.high_hz == high_hz else None
+            made.append(rows.least(duration_s, band) if last is None else last)
+            if on_row is not None:
+                on_row(len(made))
+        sizes = np.log([rows.promise_of(row).tolerance for row in made])
+        banks.append((float(sizes.max()), tuple(made)))
+        if np.ptp(sizes) < _UNBALANCED:
+            break
+        handicap += sizes - size
+    return min(banks, key=lambda bank: bank[0])[1]
+
+
+def _least_tolerance(chain: Chain, handicap: FloatArray, duration_s: float) -> float:
+    """Log of the smallest tolerance at which as many rows as there are handicaps cover the range."""
+
+    def excess(size: float) -> float:
+        return chain.excess(np.exp(size - handicap).tolist(), duration_s)
+
+    lowest, highest = TOLERANCES
+    size = crossing(
+        excess, math.log(lowest), math.log(highest), steepness=_STEEPNESS, near=_EQUAL, apart=_EQUAL
     )
+    what = f"rows = {handicap.size}: {duration_s:g} s hold {chain.low_hz:g} to {chain.high_hz:g} Hz"
+    if size is None:
+        raise DesignError(f"{what} not even at {highest:g}; more rows or a longer duration do")
+    if excess(size) == -math.inf:
+        raise DesignError(f"{what} at {lowest:g} already; fewer rows or a shorter duration do")
+    return size
 
 
-@dataclass(frozen=True)
-class _Reach:
-    """How far a number of rows reach, as a function of their tolerance."""
-
-    rows: int
-    low_hz: float
-    high_hz: float
-    duration_s: float
-    damping_ratio: float
-    rule: AmplitudeRule
-
-    def excess(self, tolerance: float) -> float:
-        """Log of the highest frequency reached over the one asked for."""
-        start_hz = self.low_hz
-        for _ in range(self.rows):
-            start_hz *= self._ratio(self.duration_s * start_hz, tolerance)
-        return math.log(start_hz / self.high_hz)
-
-    def _ratio(self, duration: float, tolerance: float) -> float:
-        """Ratio of the ends of the widest band that a duration holds from frequency 1: 1 to 8."""
-        narrow, wide = worst_at_ends(duration, self.damping_ratio, tolerance, self.rule)
-        if narrow > tolerance or wide <= tolerance:
-            return 1.0 if narrow > tolerance else WIDEST_RATIO
-        return float(widest(duration, self.damping_ratio, tolerance, self.rule).frequency[-1])
-
-    def least_tolerance(self, below: tuple[float, float], above: tuple[float, float]) -> float:
-        """Tolerance at which the excess is 0, from one at which it is below and one at which it is not."""
-        (left, short), (right, beyond) = below, above
-        for _ in range(_TRIALS):
-            if right / left - 1.0 < _TOLERANCE_ACCURACY or beyond < _EXCESS_ACCURACY:
-                break
-            share = min(max(short / (short - beyond), 0.01), 0.99)
-            middle = left * (right / left) ** share
-            excess = self.excess(middle)
-            # Illinois: the end that stays counts half, so that it too comes to move.
-            if excess >= 0.0:
-                right, beyond, short = middle, excess, short / 2.0
-            else:
-                left, short, beyond = middle, excess, beyond / 2.0
-        return right
+def _fits(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s: float) -> bool:
+    """Whether one row in continuous time holds all that is left."""
+    if rest.high_hz > WIDEST_RATIO * rest.low_hz:
+        return False
+    return rows.ideal.shortest(rest, tolerance).shaper.duration_s <= duration_s * (1.0 + _ON_TIME)
 
 
-def _rest(
-    start_hz: float,
-    high_hz: float,
-    tolerance: float,
-    duration_s: float,
-    damping_ratio: float,
-    amplitudes: Amplitudes,
-) -> RobustDesign | None:
+def _shortest_rest(
+    rows: RowDesigner[Row], rest: Band, tolerance: float, longest_duration_s: float
+) -> Row | None:
     """Design the shortest row for all that is left, if it is short enough."""
-    if high_hz > WIDEST_RATIO * start_hz:
+    if not _fits(rows, rest, tolerance, longest_duration_s):
         return None
-    rest = specified_insensitivity(
-        Band(start_hz, high_hz), tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes
+    row = rows.shortest(rest, tolerance)
+    return row if rows.duration_s_of(row) <= longest_duration_s * (1.0 + _ON_TIME) else None
+
+
+def _least_rest(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s: float) -> Row | None:
+    """Design the row that leaves the least over all that is left, if that is little enough.
+
+    Where it could leave less than the smallest tolerance it reaches farther instead.
+    """
+    if not _fits(rows, rest, tolerance, duration_s):
+        return None
+    if _fits(rows, rest, TOLERANCES[0], duration_s):
+        row = rows.widest(duration_s, rest.low_hz, TOLERANCES[0])
+        if rows.promise_of(row).band.high_hz >= rest.high_hz:
+            return row
+    row = rows.least(duration_s, rest)
+    return row if rows.promise_of(row).tolerance <= tolerance * (1.0 + _ON_TIME) else None
+
+
+def _too_many(chain: Chain, tolerance: float, duration_s: float) -> str:
+    """Say what would do where a knob has too few positions."""
+    size = crossing(
+        lambda size: chain.excess([tolerance] * MOST_ROWS, math.exp(size)),
+        math.log(duration_s),
+        math.log(_LONGEST * duration_s),
+        steepness=2.0,
+        near=_SUGGESTION,
+        apart=_SUGGESTION,
     )
-    return rest if rest.shaper.duration_s <= duration_s * (1.0 + _ON_TIME) else None
+    what = f"{chain.low_hz:g} to {chain.high_hz:g} Hz at {tolerance:g}: more than {MOST_ROWS} rows of "
+    if size is None:
+        return f"{what}{duration_s:g} s; a longer duration or a larger tolerance needs fewer"
+    digit = 10.0 ** (math.floor(size / math.log(10.0)) - 1)
+    enough_s = math.ceil(math.exp(size) / digit) * digit
+    return f"{what}{duration_s:g} s; {MOST_ROWS} rows of {enough_s:g} s do, or a larger tolerance"

@@ -1,26 +1,29 @@
-"""Specified insensitivity on the controller's own ticks: the guarantee is on what runs.
+"""Robust designs on the controller's own ticks: the guarantee is on what runs.
 
-Not for: shapers of named families (`grid`), nor for number types (the controller's taps).
+Not for: shapers of named families (`grid`), switches on whole ticks alone (`whole_ticks`), nor for number
+types (the controller's taps).
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
-from swayless.design.grid_shaper import GridShaper, check_tick, decimal_amplitudes
-from swayless.design.minimax import minimax_amplitudes
-from swayless.design.residual import NEGLIGIBLE_AMPLITUDE
-from swayless.design.robust.specified import RULES, Amplitudes, RobustDesign, specified_insensitivity
-from swayless.design.robustness import worst_residual
-from swayless.design.shaper import FloatArray, Guarantee
+from swayless.design.grid_shaper import GridShaper, check_tick
+from swayless.design.robust.specified import (
+    Amplitudes,
+    RobustDesign,
+    fixed_duration,
+    least_residual,
+    specified_insensitivity,
+)
+from swayless.design.robust.tick_program import TickProgram
 from swayless.errors import DesignError
-from swayless.plant import Band, Mode
+from swayless.plant import Band
 
-_SLACK = 1e-9  # of the residual: more than amplitudes put on the decimal lattice can add
 _MOST_EXTRA = 8  # ticks beyond the ideal duration; where these do not help, the tick is too coarse
+_ON_TICK = 1e-9  # relative: a duration this little below a whole tick is on it
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,48 +33,44 @@ class RobustTaps:
     Parameters
     ----------
     taps : GridShaper
-        With the fewest ticks that hold the tolerance over the band.
+        Their guarantee is proved on these very numbers.
     ideal : RobustDesign
-        The shortest shaper in continuous time, whose lower bound holds for the taps too.
+        The best shaper in continuous time, whose lower bound holds for the taps too.
     """
 
     taps: GridShaper
     ideal: RobustDesign
 
 
-@dataclass(frozen=True, eq=False)
-class _Impulses:
-    """Impulses whose guarantee is still to be proved."""
-
-    times_s: FloatArray
-    amplitudes: FloatArray
-
-
 def specified_insensitivity_on_ticks(
-    band: Band,
+    band: Band | Sequence[Band],
     tick_s: float,
     *,
     tolerance: float = 0.05,
-    damping_ratio: float = 0.0,
+    damping_ratio: float | tuple[float, float] = 0.0,
     amplitudes: Amplitudes = "positive",
+    impulses: int | None = None,
 ) -> RobustTaps:
-    """Design taps on the fewest ticks that leave at most the tolerance over a band.
+    """Design taps on the fewest ticks that leave at most the tolerance over a band, or over several.
 
-    Fewer ticks than the ideal shaper's proved bound cannot hold the band; from there on each number of ticks
+    Fewer ticks than the ideal shaper's proved bound cannot hold the bands; from there on each number of ticks
     is solved as a linear program until one does. Bounded taps may have levels between 0 and 1.
 
     Parameters
     ----------
-    band : Band
-        Undamped natural frequencies, high_hz / low_hz at most 8.
+    band : Band or sequence of Band
+        Undamped natural frequencies, as for `specified_insensitivity`.
     tick_s : float
         Tick of the controller, > 0.
     tolerance : float
         Residual vibration as a ratio, 0.01 to 0.2.
-    damping_ratio : float
-        Over the whole band, 0 to 0.2.
-    amplitudes : {"positive", "bounded"}
-        Sign rule. "unity-magnitude" cannot be kept on ticks and is refused.
+    damping_ratio : float or (float, float)
+        One value, or the lowest and highest: 0 to 0.2.
+    amplitudes : {"positive", "bounded", "unity-magnitude"}
+        Sign rule. "unity-magnitude" is for drives that know no level between (`whole_tick_taps`): the ideal
+        switches are moved to whole ticks, and the guarantee says what that leaves.
+    impulses : int, optional
+        With "unity-magnitude": exactly so many.
 
     Returns
     -------
@@ -89,46 +88,148 @@ def specified_insensitivity_on_ticks(
     ([0, 9, 10, 19], 0.941)
     """
     check_tick(tick_s)
-    if amplitudes == "unity-magnitude":
-        raise DesignError("amplitudes = 'unity-magnitude': whole ticks need levels between; use 'bounded'")
     ideal = specified_insensitivity(
-        band, tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes
+        band, tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes, impulses=impulses
     )
+    if amplitudes == "unity-magnitude":
+        return RobustTaps(_whole_tick_taps(ideal), ideal)
+    program, promise = TickProgram(tick_s, amplitudes, ideal.shaper), ideal.shaper.guarantee
     fewest = max(1, math.ceil(ideal.lower_bound_s / tick_s))
     for last in range(fewest, fewest + _MOST_EXTRA + 1):
-        taps = _within(last, tick_s, ideal, amplitudes)
+        taps = program.holding(promise, last)
         if taps is not None:
             return RobustTaps(taps, ideal)
-    what = f"{band.low_hz:g} to {band.high_hz:g} Hz at {100 * tolerance:g} %"
+    what = " and ".join(f"{band.low_hz:g} to {band.high_hz:g} Hz" for band in promise.bands)
     raise DesignError(
-        f"tick_s = {tick_s!r}: {fewest + _MOST_EXTRA} ticks do not hold {what}; a finer tick does "
-        f"(the ideal shaper lasts {ideal.shaper.duration_s:.6g} s)"
+        f"tick_s = {tick_s!r}: {fewest + _MOST_EXTRA} ticks do not hold {what} at {100 * tolerance:g} %; a "
+        f"finer tick does (the ideal shaper lasts {ideal.shaper.duration_s:.6g} s)"
     )
 
 
-def _within(last: int, tick_s: float, ideal: RobustDesign, amplitudes: Amplitudes) -> GridShaper | None:
-    """Find taps on the ticks 0 .. `last` that hold the band, or prove that there are none."""
-    promise = ideal.shaper.guarantee
-    damping_ratio = promise.mode.damping_ratio
-    times_s = np.arange(last + 1, dtype=np.float64) * tick_s
-    near = ideal.shaper.times_s * (last / ideal.shaper.duration_s)
-    start = np.union1d(np.floor(near), np.ceil(near)).astype(np.intp)
-    best = minimax_amplitudes(
-        times_s,
-        promise.band,
+def fixed_duration_on_ticks(
+    duration_s: float,
+    low_hz: float,
+    tick_s: float,
+    *,
+    tolerance: float = 0.05,
+    damping_ratio: float = 0.0,
+    amplitudes: Amplitudes = "positive",
+    impulses: int | None = None,
+) -> RobustTaps:
+    """Design taps of a given duration that hold the tolerance from `low_hz` up as far as any on these ticks.
+
+    Parameters
+    ----------
+    duration_s : float
+        Time of the last tap, rounded down to whole ticks.
+    low_hz : float
+        Lowest frequency to hold, > 0.
+    tick_s : float
+        Tick of the controller, > 0.
+    tolerance : float
+        Residual vibration as a ratio, 0.01 to 0.2.
+    damping_ratio : float
+        Over the whole band, 0 to 0.2.
+    amplitudes, impulses
+        As for `specified_insensitivity_on_ticks`.
+
+    Returns
+    -------
+    RobustTaps
+        The upper edge of the taps' band is right to 1e-8 of itself, and held by the taps.
+
+    Raises
+    ------
+    DesignError
+        If a value is out of range, the duration is too short for any band, or the tick is too coarse.
+
+    References
+    ----------
+    Kriikku, Singer and Singhose (1997), section III, steps 3 and 4.
+
+    Examples
+    --------
+    >>> design = fixed_duration_on_ticks(1.2, 0.8, 0.15)
+    >>> edges_hz = [each.guarantee.band.high_hz for each in (design.taps, design.ideal.shaper)]
+    >>> [round(edge_hz, 3) for edge_hz in edges_hz]
+    [1.353, 1.714]
+    """
+    last = _last_tick(duration_s, tick_s)
+    ideal = fixed_duration(
+        last * tick_s,
+        low_hz,
+        tolerance=tolerance,
         damping_ratio=damping_ratio,
-        rule=RULES[amplitudes],
-        start=np.union1d(start[start <= last], last),
-        target_ratio=promise.tolerance - _SLACK,
-        least_last=2.0 * NEGLIGIBLE_AMPLITUDE,  # so that the last tap counts
+        amplitudes=amplitudes,
+        impulses=impulses,
     )
-    if best.worst_residual_ratio > promise.tolerance:
-        return None
-    delays = (best.taps - best.taps[0]).astype(np.int64)
-    lattice = decimal_amplitudes(best.amplitudes)
-    impulses = _Impulses(delays * tick_s, lattice)
-    worst = worst_residual(impulses, promise.band, damping_ratio=damping_ratio)
-    if worst > promise.tolerance:
-        return None
-    mode = Mode(promise.mode.frequency_hz, damping_ratio)
-    return GridShaper(delays, lattice, tick_s, Guarantee(promise.tolerance, mode, promise.band, worst))
+    if amplitudes == "unity-magnitude":
+        return RobustTaps(_whole_tick_taps(ideal), ideal)
+    return RobustTaps(TickProgram(tick_s, amplitudes, ideal.shaper).widest(last), ideal)
+
+
+def least_residual_on_ticks(
+    duration_s: float,
+    band: Band | Sequence[Band],
+    tick_s: float,
+    *,
+    damping_ratio: float = 0.0,
+    amplitudes: Amplitudes = "positive",
+    impulses: int | None = None,
+) -> RobustTaps:
+    """Design taps of a given duration that leave the least worst residual over a band, or over several.
+
+    Parameters
+    ----------
+    duration_s : float
+        Time of the last tap, rounded down to whole ticks.
+    band, tick_s, amplitudes, impulses
+        As for `specified_insensitivity_on_ticks`.
+    damping_ratio : float
+        Over all bands, 0 to 0.2.
+
+    Returns
+    -------
+    RobustTaps
+        The tolerance of the taps' guarantee is what they leave.
+
+    Raises
+    ------
+    DesignError
+        If a value is out of range.
+
+    Examples
+    --------
+    Eleven ticks a period: EI promises 5 %, and no taps that last a period leave less than 5.28 %.
+
+    >>> design = least_residual_on_ticks(1.0, Band(0.80027, 1.19973), 1.0 / 11.0)
+    >>> round(design.taps.guarantee.tolerance, 4), round(design.ideal.shaper.guarantee.tolerance, 4)
+    (0.0528, 0.05)
+    """
+    last = _last_tick(duration_s, tick_s)
+    ideal = least_residual(
+        last * tick_s, band, damping_ratio=damping_ratio, amplitudes=amplitudes, impulses=impulses
+    )
+    if amplitudes == "unity-magnitude":
+        return RobustTaps(_whole_tick_taps(ideal), ideal)
+    return RobustTaps(
+        TickProgram(tick_s, amplitudes, ideal.shaper).least(ideal.shaper.guarantee, last), ideal
+    )
+
+
+def _last_tick(duration_s: float, tick_s: float) -> int:
+    """Round a duration down to whole ticks; a hair below one counts as on it."""
+    check_tick(tick_s)
+    if not (math.isfinite(duration_s) and duration_s > 0.0):
+        raise DesignError(f"duration_s = {duration_s!r}: must be finite and > 0")
+    last = math.floor(duration_s / tick_s * (1.0 + _ON_TICK))
+    if last < 1:
+        raise DesignError(f"duration_s = {duration_s!r}: must be at least a tick, {tick_s:g} s")
+    return last
+
+
+def _whole_tick_taps(ideal: RobustDesign) -> GridShaper:
+    """Refuse what needs switches on whole ticks."""
+    raise DesignError(
+        f"{ideal.shaper.family}: 'unity-magnitude' on whole ticks needs levels between; use 'bounded'"
+    )

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -13,8 +11,6 @@ from swayless.design import partial_sums, residual_vibration, worst_residual
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.robust import (
     RobustDesign,
-    cover,
-    cover_with,
     fixed_duration,
     least_residual,
     specified_insensitivity,
@@ -152,25 +148,6 @@ def test_an_ei_duration_where_weights_are_not_unique_is_still_proved() -> None:
     assert 0.0 < design.gap_ratio < PROVED_GAP
 
 
-def test_rows_of_a_bank_meet_and_hold_the_tolerance() -> None:
-    rows = cover(0.2, 0.6, tolerance=0.05, longest_duration_s=2.6, amplitudes="bounded")
-    bands = [row.shaper.guarantee.band for row in rows]
-    assert bands[0].low_hz == 0.2
-    assert bands[-1].high_hz == 0.6
-    assert all(one.high_hz == other.low_hz for one, other in pairwise(bands))
-    assert all(row.shaper.duration_s <= 2.6 * (1.0 + 1e-9) for row in rows)
-    for row, band in zip(rows, bands, strict=True):
-        assert worst_residual(row.shaper, band) <= 0.05 * TOUCH
-
-
-def test_cover_with_spreads_one_tolerance_over_all_rows() -> None:
-    rows = cover_with(2, 0.5, 1.0, duration_s=1.1, amplitudes="bounded")
-    tolerances = [row.shaper.guarantee.tolerance for row in rows]
-    assert len(rows) == 2
-    # The excess of the last row's reach is at most 1e-9, which its tolerance follows tenfold at most.
-    np.testing.assert_allclose(tolerances, tolerances[0], rtol=1e-7)
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -181,9 +158,6 @@ def test_cover_with_spreads_one_tolerance_over_all_rows() -> None:
         (lambda: fixed_duration(0.5, 0.2), r"too short"),
         (lambda: fixed_duration(50.0, 0.2), r"and more; ask for the shortest"),
         (lambda: fixed_duration(float("nan"), 0.2), r"finite and > 0"),
-        (lambda: cover(0.2, 0.6), r"either duration_s or longest_duration_s"),
-        (lambda: cover_with(0, 0.2, 0.6, duration_s=3.0), r"must be at least 1"),
-        (lambda: cover_with(1, 0.2, 1.2, duration_s=2.0), r"more rows or a longer duration do"),
     ],
 )
 def test_refusals_say_what_is_allowed(call: object, message: str) -> None:
