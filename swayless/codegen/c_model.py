@@ -13,7 +13,7 @@ from swayless.codegen.features import Features, features_of
 from swayless.codegen.names import check_c_names
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
 from swayless.controller.settings import ShaperSettings
-from swayless.controller.status import ERROR_BITS, Status, explain
+from swayless.controller.status import ERROR_BITS, explain
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ class CModel:
     @property
     def error_mask(self) -> str:
         """Bits that raise `error`."""
-        names = [bit.name for bit in Status if bit & ERROR_BITS]
+        names = [bit.name for bit in self.settings.status_bits if bit & ERROR_BITS]
         return "(" + " | ".join(f"{self.macro}_SHAPER_{name}" for name in names) + ")"
 
     @property
@@ -184,7 +184,8 @@ class CModel:
     @property
     def status_bits(self) -> list[StatusBit]:
         """The status word."""
-        return [StatusBit(bit.name or "", bit.value.bit_length() - 1, explain(bit)) for bit in Status]
+        bits = self.settings.status_bits
+        return [StatusBit(bit.name or "", bit.value.bit_length() - 1, explain(bit)) for bit in bits]
 
     @property
     def target_argument(self) -> str:

@@ -133,15 +133,13 @@ class CTables:
             c_table(
                 "uint32_t",
                 "DELAY_TICKS",
-                [[f"{d}u" for d in r.delays_ticks] for r in rows],
+                [[f"{d}u" for d in r.lags] for r in rows],
                 "delay of each tap, by row",
             ),
             c_table(
                 real, "AMPLITUDE", by_row, f"amplitude of each tap, by row; each row sums to exactly 1{scale}"
             ),
-            c_table(
-                "uint32_t", "TAIL_TICKS", [[f"{r.tail_ticks}u" for r in rows]], "longest delay of each row"
-            ),
+            c_table("uint32_t", "TAIL_TICKS", [[f"{r.tail}u" for r in rows]], "longest delay of each row"),
             *self._moment_tables(),
             c_table(
                 real,
@@ -159,7 +157,7 @@ class CTables:
 
     def _moment_tables(self) -> list[CTable]:
         doc = "sum of amplitude times delay of each row: references to come per unit of a steady command"
-        moments = [row.moment_ticks for row in self._settings.row_tables]
+        moments = [row.moment for row in self._settings.row_tables]
         if not self._is_integer:
             values = [self._types.literal(self._settings.number.scalar(float(m))) for m in moments]
             return [c_table(self._types.real, "MOMENT_TICKS", [values], doc)]

@@ -15,7 +15,7 @@ from swayless.codegen.provenance import Provenance, check_comments, header_lines
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.ramp import Glider
 from swayless.controller.settings import ShaperSettings
-from swayless.controller.status import Status, explain
+from swayless.controller.status import explain
 from swayless.errors import CodegenError
 
 VALUES_A_LINE = 6
@@ -127,7 +127,7 @@ class StModel:
     @property
     def st_bits(self) -> dict[str, int]:
         """Values of the status bits."""
-        return {bit.name or "": bit.value for bit in Status}
+        return {bit.name or "": bit.value for bit in self.settings.status_bits}
 
     @cached_property
     def provenance(self) -> list[str]:
@@ -137,7 +137,7 @@ class StModel:
             f"Work per call: at most {self.most_taps} taps; no division, no functions but ABS and TRUNC.",
             "",
             "Status is the sum of:",
-            *(f"  {bit.value} {explain(bit)}" for bit in Status),
+            *(f"  {bit.value} {explain(bit)}" for bit in self.settings.status_bits),
         ]
         return header_lines(self.settings, self.origin, facts)
 
@@ -201,7 +201,7 @@ class StModel:
         """Tables of taps and rows; row 0 is one tap of amplitude 1 without delay."""
         rows = self.settings.row_tables
         firsts = [sum(len(r.amplitudes) for r in rows[:i]) for i in range(len(rows))]
-        moments = [self.literal(self.settings.number.scalar(float(r.moment_ticks))) for r in rows]
+        moments = [self.literal(self.settings.number.scalar(float(r.moment))) for r in rows]
         bounds = [self.literal(bound) for bound in residual_bounds(self.settings)]
         tables = [
             _table("FirstTaps", "DINT", [[str(first) for first in firsts]], "First tap of each row."),
@@ -209,7 +209,7 @@ class StModel:
             _table(
                 "DelayTicks",
                 "DINT",
-                [[str(d) for d in r.delays_ticks] for r in rows],
+                [[str(d) for d in r.lags] for r in rows],
                 "[ticks] Delay of each tap, by row.",
             ),
             _table(
@@ -218,9 +218,7 @@ class StModel:
                 [[self.literal(a) for a in r.amplitudes] for r in rows],
                 "Amplitude of each tap, by row; each row sums to exactly 1.",
             ),
-            _table(
-                "TailTicks", "DINT", [[str(r.tail_ticks) for r in rows]], "[ticks] Longest delay of each row."
-            ),
+            _table("TailTicks", "DINT", [[str(r.tail) for r in rows]], "[ticks] Longest delay of each row."),
             _table(
                 "MomentTicks",
                 self.st_real,

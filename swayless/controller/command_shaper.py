@@ -214,7 +214,7 @@ class CommandShaper:
         self._accept(command)
         before, self._command = self._command, ramped(self._command, self._target, self._limits)
         self._still_ticks = min(self._still_ticks + 1, self._last) if self._command == before else 0
-        if self._still_ticks >= self._tables[self._row].tail_ticks:
+        if self._still_ticks >= self._tables[self._row].tail:
             self._filter.rest(self._command)
             self._reference = self._command
         else:
@@ -256,7 +256,7 @@ class CommandShaper:
         if self._tables[self._row].waits and not self._is_settled and self._target != 0:
             return self._foretell_waiting()
         row = self._row_at_rest(self._command) if self._is_settled else self._row
-        tail = self._tables[row].tail_ticks
+        tail = self._tables[row].tail
         down = self._slow_down(self._command, self._zero)
         ticks = down.ticks + tail if down.ticks > 0 else max(tail - self._still_ticks, 0)
         return self._filter.pending(row) + down.total, ticks
@@ -273,7 +273,7 @@ class CommandShaper:
         total = self._filter.pending(self._row) + rise.total
         total = total + (self._number.scalar(hold) * target)
         total = (total + change) + down.total
-        return total, rise.ticks + hold + down.ticks + self._tables[row].tail_ticks
+        return total, rise.ticks + hold + down.ticks + self._tables[row].tail
 
     def _outputs(self) -> ShaperOutput:
         total, ticks = self._foretell()

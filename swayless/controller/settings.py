@@ -9,6 +9,10 @@ from typing import Any
 
 from swayless.controller.limits import CommandLimits
 from swayless.controller.number import NumberType
+from swayless.controller.phase_clock import PhaseClock
+from swayless.controller.phase_taps import PhaseTaps
+from swayless.controller.rope import RopeSettings
+from swayless.controller.status import ROPE_BITS, Status
 from swayless.controller.taps import Bank
 from swayless.errors import ControllerError
 
@@ -21,14 +25,14 @@ class RowTable:
     ----------
     name, family : str
         For comments.
-    delays_ticks : tuple of int
-        Delays of the taps.
+    lags : tuple of int
+        What must pass before each tap releases: ticks, under the phase clock quanta of phase.
     amplitudes : tuple
         In float types numbers; in int32 numerators over ``2**30``.
-    tail_ticks : int
-        Delay of the last tap: after as many equal commands the reference equals the command.
-    moment_ticks : Fraction
-        Sum of amplitude times delay: the references still to come per unit of a steady command.
+    tail : int
+        Lag of the last tap: once it has passed without a change, the reference equals the command.
+    moment : Fraction
+        Sum of amplitude times lag: in ticks, the references still to come per unit of a steady command.
     waits : bool
         Whether new commands wait for rest, because an amplitude is negative.
     residual_bound_ratio : float
@@ -37,10 +41,10 @@ class RowTable:
 
     name: str
     family: str
-    delays_ticks: tuple[int, ...]
+    lags: tuple[int, ...]
     amplitudes: tuple[Any, ...]
-    tail_ticks: int
-    moment_ticks: Fraction
+    tail: int
+    moment: Fraction
     waits: bool
     residual_bound_ratio: float
 
@@ -55,18 +59,23 @@ class ShaperSettings:
         The rows.
     limits : CommandLimits
         Ramps and maxima, in the bank's number type.
+    rope : RopeSettings or None
+        What the block knows of a measured rope; the phase clock needs it.
 
     Raises
     ------
     ControllerError
-        If sums of products could leave 64 bits (int32 only).
+        If sums of products could leave 64 bits (int32 only), or the phase clock has no rope.
     """
 
     bank: Bank
     limits: CommandLimits
+    rope: RopeSettings | None = None
 
     def __post_init__(self) -> None:
-        if self.number.is_integer:
+        if self.clock is not None and self.rope is None:
+            raise ControllerError("law = 'phase' needs a measured rope")
+        if self.number.is_integer and self.clock is None:
             peak = max(sum(abs(a) for a in table.amplitudes) for table in self.row_tables)
             if peak * self.limits.max_command >= (1 << 62) - (
                 1 << 30
@@ -90,6 +99,22 @@ class ShaperSettings:
         """Longest delay of any row."""
         return self.bank.longest_delay_ticks
 
+    @property
+    def clock(self) -> PhaseClock | None:
+        """The phase clock; None where delays are in ticks."""
+        taps = self.bank.rows[0].taps
+        return taps.clock if isinstance(taps, PhaseTaps) else None
+
+    @cached_property
+    def longest_lag(self) -> int:
+        """Largest lag of any row: once it has passed without a change, the block has settled."""
+        return max(table.tail for table in self.row_tables)
+
+    @property
+    def status_bits(self) -> tuple[Status, ...]:
+        """Bits of the status word that the block can set."""
+        return tuple(bit for bit in Status if self.rope is not None or not bit & ROPE_BITS)
+
     @cached_property
     def row_tables(self) -> tuple[RowTable, ...]:
         """Constants of rows 0 to n."""
@@ -98,17 +123,17 @@ class ShaperSettings:
         for row in self.bank.rows:
             taps = row.taps
             exact = [Fraction(n, 1 << self.number.amplitude_bits) for n in taps.numerators]
-            delays = tuple(taps.delays_ticks.tolist())
+            lags = tuple(taps.lags.tolist())
             tables.append(
                 RowTable(
                     name=row.name,
                     family=row.family,
-                    delays_ticks=delays,
+                    lags=lags,
                     amplitudes=taps.numerators
                     if self.number.is_integer
                     else tuple(self.number.scalar(a) for a in taps.amplitudes.tolist()),
-                    tail_ticks=taps.longest_delay_ticks,
-                    moment_ticks=sum((a * d for a, d in zip(exact, delays, strict=True)), Fraction(0)),
+                    tail=lags[-1],
+                    moment=sum((a * lag for a, lag in zip(exact, lags, strict=True)), Fraction(0)),
                     waits=taps.has_negative,
                     residual_bound_ratio=taps.guarantee.tolerance,
                 )

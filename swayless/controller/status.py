@@ -22,6 +22,11 @@ class Status(IntFlag):
     EMERGENCY_STOP = 1 << 8
     BELOW_MINIMUM = 1 << 9
     INCHING = 1 << 10
+    ROPE_INVALID = 1 << 11
+    ROPE_OUT_OF_RANGE = 1 << 12
+    ROPE_JUMP = 1 << 13
+    ROPE_FROZEN = 1 << 14
+    HOIST_SPEED_INVALID = 1 << 15
 
 
 _MEANINGS: dict[Status, str] = {
@@ -36,9 +41,30 @@ _MEANINGS: dict[Status, str] = {
     Status.EMERGENCY_STOP: "emergency stop is latched until released and the command is 0",
     Status.BELOW_MINIMUM: "the command is below the minimum and counts as 0",
     Status.INCHING: "inching: a small command from rest passes unshaped",
+    Status.ROPE_INVALID: "the rope length is not valid or not finite: the last one holds",
+    Status.ROPE_OUT_OF_RANGE: "the rope length is out of range and was clamped to it",
+    Status.ROPE_JUMP: "the rope length is farther off than the hoist could move: the last one holds",
+    Status.ROPE_FROZEN: "the hoist moves and the rope length does not: one of them is wrong",
+    Status.HOIST_SPEED_INVALID: "the hoist speed is not finite and counts as 0",
 }
 
-ERROR_BITS = Status.COMMAND_INVALID | Status.SELECTOR_INVALID
+ROPE_BITS = (
+    Status.ROPE_INVALID
+    | Status.ROPE_OUT_OF_RANGE
+    | Status.ROPE_JUMP
+    | Status.ROPE_FROZEN
+    | Status.HOIST_SPEED_INVALID
+)
+"""Bits that only a block with a measured rope has."""
+
+ERROR_BITS = (
+    Status.COMMAND_INVALID
+    | Status.SELECTOR_INVALID
+    | Status.ROPE_INVALID
+    | Status.ROPE_JUMP
+    | Status.ROPE_FROZEN
+    | Status.HOIST_SPEED_INVALID
+)
 """Bits that also raise the `error` output: an input that cannot be right."""
 
 

@@ -66,7 +66,7 @@ class TapFilter(ABC):
     def _reach(self, row: int) -> Iterator[tuple[Any, Any, bool]]:
         """Amplitude and command of each tap, and whether the command belongs to the present lap."""
         table, head = self._tables[row], self._head
-        for delay, amplitude in zip(table.delays_ticks, table.amplitudes, strict=True):
+        for delay, amplitude in zip(table.lags, table.amplitudes, strict=True):
             if delay <= head:
                 yield amplitude, self._ring[head - delay], True
             elif self._lapped:
@@ -101,7 +101,7 @@ class FloatTapFilter(TapFilter):
 
     def __init__(self, settings: ShaperSettings) -> None:
         super().__init__(settings)
-        self._moments = tuple(settings.number.scalar(float(t.moment_ticks)) for t in self._tables)
+        self._moments = tuple(settings.number.scalar(float(t.moment)) for t in self._tables)
         self._max = settings.limits.max_command
         self._pending = self._fresh = self._zero
 
@@ -154,7 +154,7 @@ class IntegerTapFilter(TapFilter):
 
     def __init__(self, settings: ShaperSettings) -> None:
         super().__init__(settings)
-        self._moments = tuple(_whole_and_q30(table.moment_ticks) for table in self._tables)
+        self._moments = tuple(_whole_and_q30(table.moment) for table in self._tables)
         self._pending = self._carry = 0
 
     def rest(self, command: int) -> None:

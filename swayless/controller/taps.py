@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swayless.controller.number import NumberType, amplitudes_on_lattice
+from swayless.controller.phase_taps import PhaseTaps
 from swayless.design.residual import residual_vibration
 from swayless.design.robustness import worst_residual_promised
 from swayless.design.shaper import FloatArray, Guarantee
@@ -69,6 +70,11 @@ class Taps:
         delays.flags.writeable = amplitudes.flags.writeable = False
         object.__setattr__(self, "delays_ticks", delays)
         object.__setattr__(self, "amplitudes", amplitudes)
+
+    @property
+    def lags(self) -> NDArray[np.int64]:
+        """What must pass before each tap releases: here ticks."""
+        return self.delays_ticks
 
     @property
     def times_s(self) -> FloatArray:
@@ -182,13 +188,13 @@ class Row:
         What the operator calls it.
     family : str
         Family of the shaper, for reports only.
-    taps : Taps
+    taps : Taps or PhaseTaps
         What runs.
     """
 
     name: str
     family: str
-    taps: Taps
+    taps: Taps | PhaseTaps
 
 
 @dataclass(frozen=True)
@@ -214,6 +220,8 @@ class Bank:
     def __post_init__(self) -> None:
         if not 1 <= len(self.rows) <= 254:
             raise ControllerError(f"a bank has 1 to 254 rows, got {len(self.rows)}")
+        if len({type(row.taps) for row in self.rows}) != 1:
+            raise ControllerError("all rows of a bank must follow one clock")
         if self.longest_delay_ticks == 0:
             raise ControllerError("a bank needs a row with a delay: a single tap shapes nothing")
         if len({(row.taps.tick_s, row.taps.number.name) for row in self.rows}) != 1:

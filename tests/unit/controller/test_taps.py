@@ -99,9 +99,9 @@ def test_a_bank_refuses_what_does_not_fit_together():
 def test_row_tables_hold_the_unshaped_row_and_the_exact_moments():
     settings = block(ZVD, UM_SPLIT)
     unshaped, zvd, split = settings.row_tables
-    assert (unshaped.amplitudes, unshaped.tail_ticks, unshaped.moment_ticks) == ((1.0,), 0, 0)
-    assert (zvd.moment_ticks, zvd.waits) == (4, False)
-    assert (float(split.moment_ticks), split.waits) == (pytest.approx(-0.9 - 2.8 + 7.0, rel=1e-15), True)
+    assert (unshaped.amplitudes, unshaped.tail, unshaped.moment) == ((1.0,), 0, 0)
+    assert (zvd.moment, zvd.waits) == (4, False)
+    assert (float(split.moment), split.waits) == (pytest.approx(-0.9 - 2.8 + 7.0, rel=1e-15), True)
 
 
 def test_sums_of_products_beyond_64_bits_are_refused():
