@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swayless.machine.names import name_problem
-from swayless.machine.problems import Check, Place, RefusedError, nearest, plain
+from swayless.machine.problems import Check, Place, RefusedError, T, nearest, plain
 from swayless.machine.quantity import UNITS, Dimension, parse_quantity
 
 MAX_LABEL_LENGTH = 24
@@ -60,6 +60,45 @@ def one_or_two(single: Check[float]) -> Check[tuple[float, float]]:
         return (min(good), max(good)) if len(good) == len(numbers) else None
 
     return check
+
+
+def two(single: Check[float]) -> Check[tuple[float, float]]:
+    """Check for an array of two different values in any order: the ends of a range, rising."""
+    ends = one_or_two(single)
+
+    def check(value: object, place: Place) -> tuple[float, float] | None:
+        if not isinstance(value, list) or len(value) != 2:
+            place.wrong(value, "must be an array of two values, the ends of a range")
+            return None
+        pair = ends(value, place)
+        if pair is not None and pair[0] == pair[1]:
+            place.wrong(value, "must be two different values, the ends of a range")
+            return None
+        return pair
+
+    return check
+
+
+def some(single: Check[T], *, at_most: int) -> Check[tuple[T, ...]]:
+    """Check for an array of one to `at_most` items."""
+
+    def check(value: object, place: Place) -> tuple[T, ...] | None:
+        if not isinstance(value, list) or not 1 <= len(value) <= at_most:
+            place.wrong(value, f"must be an array of 1 to {at_most}")
+            return None
+        items = [single(item, place.item(index)) for index, item in enumerate(value)]
+        good = tuple(item for item in items if item is not None)
+        return good if len(good) == len(items) else None
+
+    return check
+
+
+@plain
+def flag(value: object) -> bool:
+    """Check for true or false."""
+    if not isinstance(value, bool):
+        raise RefusedError("must be true or false")
+    return value
 
 
 def integer(low: int, high: int) -> Check[int]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from swayless.machine.checks import label, number, quantity
+from swayless.machine.checks import flag, label, number, quantity
 from swayless.machine.plant_section import PlantKind
 from swayless.machine.problems import Table, shown
 
@@ -16,6 +16,7 @@ SPEED_OR_ZERO = quantity("speed", 0.0, 1e4)
 ACCELERATION = quantity("acceleration", 1e-6, 1e4)
 COUNTS = number(1e-3, 1e12)
 SI_UNITS = "m/s"
+_RAMPS = ("acceleration", "deceleration", "quick_stop")
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,8 @@ class DriveSection:
         Up to this speed a command from rest may stay unshaped.
     command_resolution_m_s : float
         Smallest change of the command that is taken for one.
+    contactor : bool
+        Whether the drive knows only 0 and full speed.
     """
 
     units: str
@@ -49,18 +52,20 @@ class DriveSection:
     minimum_speed_m_s: float
     inching_speed_m_s: float
     command_resolution_m_s: float
+    contactor: bool = False
 
 
 def read_drive(kind: PlantKind, plant: Table, drive: Table) -> DriveSection | None:
     """Read the speeds and ramps of both sections; None where a needed value is missing or wrong."""
     max_speed_m_s = plant.need("max_speed", MAX_SPEED)
-    acceleration = _ramp("acceleration", kind, plant, drive)
-    deceleration = _ramp("deceleration", kind, plant, drive)
-    quick_stop = _ramp("quick_stop", kind, plant, drive)
+    contactor = drive.take("contactor", flag, False) or False
+    acceleration, deceleration, quick_stop = (_ramp(key, kind, plant, drive) for key in _RAMPS)
     units, counts_per_m_s = _read_units(drive)
     minimum = _speed_below("minimum_speed", drive, max_speed_m_s)
     inching = _speed_below("inching_speed", drive, max_speed_m_s)
     resolution = _speed_below("command_resolution", drive, max_speed_m_s)
+    if contactor:
+        _refuse_speeds_between(plant, drive)
     if max_speed_m_s is None:
         return None
     return DriveSection(
@@ -73,6 +78,7 @@ def read_drive(kind: PlantKind, plant: Table, drive: Table) -> DriveSection | No
         minimum_speed_m_s=minimum,
         inching_speed_m_s=inching,
         command_resolution_m_s=resolution,
+        contactor=contactor,
     )
 
 
@@ -83,6 +89,16 @@ def _ramp(key: str, kind: PlantKind, plant: Table, drive: Table) -> float | None
             drive.raw[key], f"stands in [{kind}] too, as {shown(plant.raw[key])}: keep one"
         )
     return in_plant if in_drive is None else in_drive
+
+
+def _refuse_speeds_between(plant: Table, drive: Table) -> None:
+    """Report what would give a contactor drive speeds between 0 and the full one."""
+    for table in (plant, drive):
+        for key in (*_RAMPS, "inching_speed"):
+            if key in table.raw:
+                table.place(key).wrong(
+                    table.raw[key], "a contactor drive gives 0 or full speed: leave it out"
+                )
 
 
 def _read_units(drive: Table) -> tuple[str, float | None]:

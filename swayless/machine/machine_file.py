@@ -7,22 +7,23 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from swayless.errors import FileError
+from swayless.machine.bank_section import MAX_ROWS, BankSection, read_bank, with_options
 from swayless.machine.checks import machine_name
 from swayless.machine.controller_section import ControllerSection, check_counts, read_controller
 from swayless.machine.drive_section import DriveSection, read_drive
 from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
 from swayless.machine.problems import RefusedError, Report, Table, plain, shown
-from swayless.machine.row_section import RowSection, read_row
+from swayless.machine.row_section import Row, read_row
 from swayless.machine.source import read_source
 
 MAX_BYTES = 1_000_000
-MAX_ROWS = 8
 _PLANT_KINDS: tuple[PlantKind, ...] = ("crane", "arm")
-_NEEDED = {"controller": "[controller]", "row": "[[row]]"}
+_ONE_OF = {"[crane] or [arm]": _PLANT_KINDS, "[[row]] or [bank]": ("row", "bank")}
 _AT_LINE = re.compile(r"(.*) \(at line (\d+), column (\d+)\)")
 _NAKED_QUANTITY = re.compile(r"=[^\"'#]*[0-9.]\s*[A-Za-z%]")
 
@@ -43,8 +44,10 @@ class Machine:
         What the command is in, and its limits.
     controller : ControllerSection
         Tick, number type and law.
-    rows : tuple of RowSection
-        The knob's positions from 1 on; position 0 is unshaped.
+    rows : tuple of RowSection or RobustRow
+        The knob's positions from 1 on; position 0 is unshaped. Empty if there is a bank.
+    bank : BankSection or None
+        What to work the rows out from, if they are not written down.
     """
 
     name: str
@@ -52,16 +55,22 @@ class Machine:
     plant: PlantSection
     drive: DriveSection
     controller: ControllerSection
-    rows: tuple[RowSection, ...]
+    rows: tuple[Row, ...]
+    bank: BankSection | None = None
 
 
-def load_machine(path: Path | str) -> Machine:
+def load_machine(path: Path | str, bank_options: Mapping[str, object] | None = None) -> Machine:
     """Load a machine file.
 
     Parameters
     ----------
     path : Path or str
         A TOML file; ``docs/machine-file.md`` says what stands in it.
+    bank_options : mapping or None
+        Values by the keys of ``[bank]``, numbers or texts as on a command line, which replace those of the
+        file, and those that they exclude: ``rows`` replaces ``tolerance``, ``duration`` replaces
+        ``longest_duration``. Rows that the file writes down are then left aside: the machine has a bank. An
+        empty mapping takes ``[bank]`` as it is, and reports a file without one. None takes the file as it is.
 
     Raises
     ------
@@ -78,11 +87,20 @@ def load_machine(path: Path | str) -> Machine:
     ...     machine = load_machine(path)
     >>> machine.name, machine.controller.tick_s, [row.name for row in machine.rows]
     ('srtc_gantry', 0.01, ['long', 'middle', 'short'])
+
+    The same crane with a bank in the place of its rows:
+
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "crane.toml")
+    ...     _ = path.write_text(example_text("srtc-gantry"))
+    ...     machine = load_machine(path, {"rows": "3", "duration": "3 s", "amplitudes": "bounded"})
+    >>> machine.rows, machine.bank.rows, machine.bank.duration_s, machine.bank.unit
+    ((), 3, 3.0, 'ft')
     """
     path = Path(path)
     document = _parse(path, read_source(path, max_bytes=MAX_BYTES))
     report = Report(str(path))
-    machine = _read_machine(Table(document, report, ""), path.name)
+    machine = _read_machine(Table(_with_bank(document, bank_options), report, ""), path.name, bank_options)
     if machine is None or report.problems:
         raise FileError(report.problems)
     return machine
@@ -96,7 +114,7 @@ def _parse(path: Path, text: str) -> dict[str, object]:
     except ValueError as error:
         raise FileError([f"{path}: {_syntax_problem(text, f'{error}')}"]) from error
     if not document:
-        needs = "name, [crane] or [arm], [controller] and at least one [[row]]"
+        needs = "name, [crane] or [arm], [controller] and at least one [[row]] or a [bank]"
         hint = "'swayless init' writes a commented file to start from"
         raise FileError([f"{path}: is empty: a machine file needs {needs}; {hint}"])
     return document
@@ -112,7 +130,15 @@ def _syntax_problem(text: str, message: str) -> str:
     return f"line {match[2]}, column {match[3]}: {line[:60]!a}: not valid TOML: {match[1]}{hint}"
 
 
-def _read_machine(root: Table, source: str) -> Machine | None:
+def _with_bank(document: dict[str, object], bank_options: Mapping[str, object] | None) -> dict[str, object]:
+    """Leave aside the rows of a document that is to have a bank, and open the section for options."""
+    if bank_options is None:
+        return document
+    kept = {key: value for key, value in document.items() if key != "row"}
+    return {"bank": {}, **kept} if bank_options else kept
+
+
+def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] | None) -> Machine | None:
     name = root.need("name", machine_name)
     kind = _plant_kind(root)
     _check_sections(root)
@@ -123,12 +149,18 @@ def _read_machine(root: Table, source: str) -> Machine | None:
     controller = read_controller(controller_table)
     if drive is not None and controller_table.raw.get("number") == "int32":
         check_counts(drive_table, drive)
-    rows = _read_rows(kind, root, damping_ratio=plant.damping_ratio if plant else 0.0)
+    rows = _read_rows(kind, root, plant, contactor=drive is not None and drive.contactor)
+    bank_table = with_options(_section(root, "bank", {}), bank_options or {})
+    bank = None
+    if plant is not None and "bank" in root.raw:
+        contactor = drive is not None and drive.contactor
+        bank = read_bank(bank_table, plant=plant, plant_table=plant_table, contactor=contactor)
+        bank_table.close()
     for table in (root, plant_table, drive_table, controller_table):
         table.close()
     if name is None or plant is None or drive is None or controller is None:
         return None
-    return Machine(name, source, plant, drive, controller, rows)
+    return Machine(name, source, plant, drive, controller, rows, bank)
 
 
 def _plant_kind(root: Table) -> PlantKind:
@@ -138,14 +170,14 @@ def _plant_kind(root: Table) -> PlantKind:
 
 def _check_sections(root: Table) -> None:
     """Report sections that are missing, or that exclude each other."""
-    root.asked.extend(_PLANT_KINDS)
-    present = sum(kind in root.raw for kind in _PLANT_KINDS)
-    if present != 1:
-        found = "both are there" if present else "none is there"
-        root.place("[crane] or [arm]").problem(f"exactly one of these sections is needed, {found}")
-    for key, heading in _NEEDED.items():
-        if key not in root.raw:
-            root.place(heading).problem("this section is missing")
+    for heading, keys in _ONE_OF.items():
+        root.asked.extend(keys)
+        present = sum(key in root.raw for key in keys)
+        if present != 1:
+            found = "both are there" if present else "none is there"
+            root.place(heading).problem(f"exactly one of these sections is needed, {found}")
+    if "controller" not in root.raw:
+        root.place("[controller]").problem("this section is missing")
 
 
 def _section(root: Table, key: str, default: dict[str, object] | None) -> Table:
@@ -169,7 +201,9 @@ def _as_rows(value: object) -> list[dict[str, object]]:
     return rows
 
 
-def _read_rows(kind: PlantKind, root: Table, *, damping_ratio: float) -> tuple[RowSection, ...]:
+def _read_rows(
+    kind: PlantKind, root: Table, plant: PlantSection | None, *, contactor: bool
+) -> tuple[Row, ...]:
     seen: dict[str, int] = {}
     rows = []
     tables = root.take("row", _as_rows, None) or []
@@ -179,7 +213,15 @@ def _read_rows(kind: PlantKind, root: Table, *, damping_ratio: float) -> tuple[R
         name = raw.get("name")
         known_as = f" ({shown(name)})" if isinstance(name, str) else ""
         table = Table(raw, root.report, f"[[row]] {position}{known_as} ")
-        rows.append(read_row(kind, table, damping_ratio=damping_ratio))
+        rows.append(
+            read_row(
+                kind,
+                table,
+                damping_ratio=plant.damping_ratio if plant else 0.0,
+                double_pendulum=plant.double_pendulum if plant else None,
+                contactor=contactor,
+            )
+        )
         table.close()
         first = seen.setdefault(str(name).lower(), position)
         if first != position and isinstance(name, str):

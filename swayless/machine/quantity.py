@@ -15,7 +15,7 @@ from typing import Literal, TypeAlias
 from swayless.errors import PlantError
 from swayless.machine.problems import RefusedError, shown
 
-Dimension: TypeAlias = Literal["length", "time", "speed", "acceleration", "frequency", "ratio"]
+Dimension: TypeAlias = Literal["length", "time", "speed", "acceleration", "frequency", "mass", "ratio"]
 
 _LENGTHS = {
     "m": Fraction(1),
@@ -46,10 +46,11 @@ UNITS: Mapping[Dimension, Mapping[str, Fraction]] = MappingProxyType(
             "kHz": Fraction(1000),
             "rpm": Fraction(1, 60),
         },
+        "mass": {"kg": Fraction(1), "t": Fraction(1000), "lb": Fraction("0.45359237")},
         "ratio": {"%": Fraction("0.01")},
     }
 )
-"""Exact size of each unit in SI, by dimension (inch and foot: international agreement of 1959)."""
+"""Exact size of each unit in SI, by dimension (inch, foot and pound: international agreement of 1959)."""
 
 _MAX_TEXT_LENGTH = 64
 _TEXT = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*([^0-9\s].*)?")
@@ -71,13 +72,13 @@ def parse_quantity(value: object, dimension: Dimension) -> float:
     value : object
         A number, taken as SI, or a text such as ``"29 ft"``; a text without a unit is SI too. ``m/s^2`` and
         ``m/s2`` are the same unit.
-    dimension : {"length", "time", "speed", "acceleration", "frequency", "ratio"}
+    dimension : {"length", "time", "speed", "acceleration", "frequency", "mass", "ratio"}
         What the value has to be.
 
     Returns
     -------
     float
-        The double nearest to the exact value in m, s, m/s, m/s2 or Hz, or the ratio.
+        The double nearest to the exact value in m, s, m/s, m/s2, Hz or kg, or the ratio.
 
     Raises
     ------
@@ -101,6 +102,20 @@ def parse_quantity(value: object, dimension: Dimension) -> float:
     if not math.isfinite(number):
         raise QuantityError(value, "is not a finite number")
     return number
+
+
+def unit_of(value: object, dimension: Dimension) -> str:
+    """Give the unit that a quantity, or the first of an array of them, is written in; the SI unit if in none.
+
+    Examples
+    --------
+    >>> unit_of(["9 ft", "29 ft"], "length"), unit_of(4, "length"), unit_of("0.2", "frequency")
+    ('ft', 'm', 'Hz')
+    """
+    first = value[0] if isinstance(value, list) and value else value
+    match = _TEXT.fullmatch(first.strip()) if isinstance(first, str) else None
+    unit = str(match[2]) if match else ""
+    return unit if unit in UNITS[dimension] else next(iter(UNITS[dimension]))
 
 
 def _from_text(text: str, dimension: Dimension) -> float:

@@ -54,6 +54,19 @@ def inward_12(band: tuple[float, float]) -> list[float]:
     return [_round(band[0], _UP), _round(band[1], _DOWN)]
 
 
+def outward_12(band: tuple[float, float]) -> tuple[float, float]:
+    """Round the ends of a band to 12 significant digits, so that it still holds all that it held.
+
+    A band so rounded is stored as it is, so what was asked for lies within what is stored.
+
+    Examples
+    --------
+    >>> outward_12((1.0 / 3.0, 2.0 / 3.0))
+    (0.333333333333, 0.666666666667)
+    """
+    return _round(band[0], _DOWN), _round(band[1], _UP)
+
+
 def real(allowed: str, holds: Callable[[float], bool]) -> Member:
     """Member that is a finite number for which `holds` is true; `allowed` says so in words."""
 

@@ -103,8 +103,8 @@ def test_all_mistakes_of_a_file_are_reported_at_once(tmp_path: Path) -> None:
 @pytest.mark.parametrize("content", ["", "\n \n", "# only a comment\n", "\ufeff"])
 def test_an_empty_file_says_what_is_needed_and_how_to_start(tmp_path: Path, content: str) -> None:
     assert _problems(tmp_path, content) == [
-        "is empty: a machine file needs name, [crane] or [arm], [controller] and at least one [[row]]; "
-        "'swayless init' writes a commented file to start from"
+        "is empty: a machine file needs name, [crane] or [arm], [controller] and at least one [[row]] or a "
+        "[bank]; 'swayless init' writes a commented file to start from"
     ]
 
 
