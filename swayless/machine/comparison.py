@@ -52,7 +52,7 @@ def _in_arrays(path: str, stored: list[Any], fresh: list[Any], relative: float) 
         return
     scale = max((abs(item) for item in (*stored, *fresh) if isinstance(item, float)), default=0.0)
     for index, (old, new) in enumerate(zip(stored, fresh, strict=True)):
-        if isinstance(old, dict):
+        if isinstance(old, dict | list):
             yield from _differences(f"{path}[{index}]", old, new, relative)
         elif not _same(old, new, scale, relative):
             yield f"{path}[{index}]: stored {shown(old)}, fresh {shown(new)}"

@@ -11,16 +11,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, TypeAlias
 
 from swayless.controller.number import NUMBER_TYPES
+from swayless.machine.bank_record import MAX_SHAPERS, BankRecord
 from swayless.machine.controller_section import LAWS
 from swayless.machine.design_members import (
     AMPLITUDES,
     BAND,
     DAMPING,
+    DAMPING_RANGE,
     DELAYS,
     FINITE,
+    FLAG,
+    FURTHER_BANDS,
+    IMPULSES,
     LABEL,
     NAME,
     NOT_NEGATIVE,
@@ -34,11 +40,11 @@ from swayless.machine.design_members import (
     word,
 )
 from swayless.machine.record import Record, one, optional, several
+from swayless.machine.robust_row import AMPLITUDE_RULES
 from swayless.machine.stored_numbers import nearest_12
 
 SCHEMA = "swayless.design/1"
-PLANT_KINDS = ("crane", "arm", "mode")
-MAX_SHAPERS = 8
+PLANT_KINDS = ("crane", "double_pendulum", "arm", "mode")
 
 CLOSE = 1e-9
 """Relative difference that 12 digits may leave between a number and the numbers that it follows from."""
@@ -51,13 +57,30 @@ Floats: TypeAlias = tuple[float, ...]
 
 
 @dataclass(frozen=True)
+class DoublePendulumRecord(Record):
+    """Sling and masses of a double pendulum, and the range of its upper mode."""
+
+    sling_length_m: Annotated[float, POSITIVE]
+    hook_mass_kg: Annotated[float, POSITIVE]
+    load_mass_kg: Annotated[float, POSITIVE]
+    upper_frequency_hz: Annotated[Pair, RANGE]
+
+
+@dataclass(frozen=True)
 class PlantRecord(Record):
-    """What the design is for: a crane, an arm, or one mode without a machine."""
+    """What the design is for: a crane, a crane with hook and sling, an arm, or one mode without a machine."""
 
     kind: Annotated[str, word("kind", PLANT_KINDS)]
     rope_length_m: Annotated[Pair | None, optional(RANGE)]
     frequency_hz: Annotated[Pair, RANGE]
     damping_ratio: Annotated[float, DAMPING]
+    double_pendulum: Annotated[DoublePendulumRecord | None, optional(one(DoublePendulumRecord))]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require sling and masses exactly for a double pendulum."""
+        if (self.kind == "double_pendulum") != (self.double_pendulum is not None):
+            found = "null" if self.double_pendulum is None else "not null"
+            yield "double_pendulum", f'is {found}, and kind = "{self.kind}"'
 
 
 @dataclass(frozen=True)
@@ -73,9 +96,13 @@ class DriveRecord(Record):
     minimum_speed_m_s: Annotated[float, NOT_NEGATIVE]
     inching_speed_m_s: Annotated[float, NOT_NEGATIVE]
     command_resolution_m_s: Annotated[float, NOT_NEGATIVE]
+    contactor: Annotated[bool, FLAG]
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
-        """Require the small speeds to be below the full speed."""
+        """Require the small speeds to be below the full speed, and no ramp for a contactor drive."""
+        for key in ("acceleration_m_s2", "deceleration_m_s2", "quick_stop_m_s2"):
+            if self.contactor and getattr(self, key) is not None:
+                yield key, "must be null: a contactor drive gives 0 or full speed"
         for key in ("minimum_speed_m_s", "inching_speed_m_s", "command_resolution_m_s"):
             if getattr(self, key) >= self.max_speed_m_s:
                 yield key, f"must be below max_speed_m_s, {self.max_speed_m_s!r}"
@@ -92,15 +119,23 @@ class ModeRecord(Record):
 
 @dataclass(frozen=True)
 class GuaranteeRecord(Record):
-    """What impulses hold: at most `tolerance` in the band, and on the ropes that have its frequencies."""
+    """What impulses hold: at most `tolerance` in the bands at every damping ratio, and so on the ropes."""
 
     tolerance: Annotated[float, TOLERANCE]
     frequency_hz: Annotated[Pair, BAND]
+    further_frequency_hz: Annotated[tuple[Pair, ...], FURTHER_BANDS]
+    damping_ratio: Annotated[Pair, DAMPING_RANGE]
     rope_length_m: Annotated[Pair, BAND]
     worst_residual_ratio: Annotated[float, NOT_NEGATIVE]
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
-        """Require the worst residual to be within the tolerance."""
+        """Require bands that rise and are apart, and the worst residual to be within the tolerance."""
+        for lower, upper in pairwise((self.frequency_hz, *self.further_frequency_hz)):
+            if not lower[1] < upper[0]:
+                yield (
+                    "further_frequency_hz",
+                    f"must rise and be apart: {upper[0]!r} is not above {lower[1]!r}",
+                )
         if self.worst_residual_ratio > self.tolerance * (1.0 + WORST_SLACK):
             yield (
                 "worst_residual_ratio",
@@ -131,6 +166,8 @@ class ShaperRecord(Record):
     family: Annotated[str, LABEL]
     order: Annotated[int | None, optional(ORDER)]
     delay_s: Annotated[float | None, optional(POSITIVE)]
+    amplitude_rule: Annotated[str | None, optional(word("sign rule", AMPLITUDE_RULES))]
+    impulses: Annotated[int | None, optional(IMPULSES)]
     mode: Annotated[ModeRecord, one(ModeRecord)]
     times_s: Annotated[Floats, TIMES]
     amplitudes: Annotated[Floats, AMPLITUDES]
@@ -142,12 +179,22 @@ class ShaperRecord(Record):
     taps: Annotated[TapsRecord | None, optional(one(TapsRecord))]
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
-        """Require one amplitude for each time, and the figures that follow from them."""
+        """Require one amplitude for each time, what follows from them, and the damping of the mode."""
+        for key, guarantee in self.guarantees.items():
+            if guarantee.damping_ratio[0] != self.mode.damping_ratio:
+                lowest, own = guarantee.damping_ratio[0], self.mode.damping_ratio
+                yield f"{key}.damping_ratio", f"starts at {lowest!r}, mode.damping_ratio is {own!r}"
         yield from _lengths("times_s", self.times_s, self.amplitudes)
         if len(self.times_s) == len(self.amplitudes):
             yield from _moments(self, self.times_s)
             if not math.isclose(self.peak_factor, sum(map(abs, self.amplitudes)), rel_tol=CLOSE):
                 yield "peak_factor", f"{self.peak_factor!r} is not the sum of the amplitudes' sizes"
+
+    @property
+    def guarantees(self) -> dict[str, GuaranteeRecord]:
+        """Guarantees of the impulses and of the taps, by their keys."""
+        of_taps = {} if self.taps is None else {"taps.guarantee": self.taps.guarantee}
+        return {"guarantee": self.guarantee} | of_taps
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,9 +218,12 @@ class DesignFile(Record):
     plant: Annotated[PlantRecord, one(PlantRecord)]
     drive: Annotated[DriveRecord, one(DriveRecord)]
     shapers: Annotated[tuple[ShaperRecord, ...], several(one(ShaperRecord), at_least=1, at_most=MAX_SHAPERS)]
+    bank: Annotated[BankRecord | None, optional(one(BankRecord))]
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
-        """Require taps exactly where there is a tick, counts for int32, and rows of different names."""
+        """Require what no record sees by itself: between shapers, tick, drive and bank."""
+        if self.bank is not None and len(self.bank.labels) != len(self.shapers):
+            yield "bank.labels", f"has {len(self.bank.labels)} values, there are {len(self.shapers)} shapers"
         if self.number == "int32" and self.drive.counts_per_m_s is None:
             yield "drive.counts_per_m_s", 'is null, and number = "int32" computes in counts'
         names = [shaper.name.lower() for shaper in self.shapers]
@@ -181,6 +231,7 @@ class DesignFile(Record):
             if names[index] in names[:index]:
                 yield f"shapers[{index}].name", f"is also the name of shapers[{names.index(names[index])}]"
             yield from _taps(f"shapers[{index}].taps", shaper.taps, self.tick_s)
+            yield from _whole(f"shapers[{index}].taps", shaper.taps, contactor=self.drive.contactor)
 
 
 def _taps(key: str, taps: TapsRecord | None, tick_s: float | None) -> Iterator[tuple[str, str]]:
@@ -190,6 +241,12 @@ def _taps(key: str, taps: TapsRecord | None, tick_s: float | None) -> Iterator[t
     elif taps is not None and tick_s is not None:
         for figure, reason in _moments(taps, [delay * tick_s for delay in taps.delays_ticks]):
             yield f"{key}.{figure}", reason
+
+
+def _whole(key: str, taps: TapsRecord | None, *, contactor: bool) -> Iterator[tuple[str, str]]:
+    """Require that a contactor drive is only ever asked for 0 or full speed."""
+    if contactor and taps is not None and any(abs(amplitude) != 1.0 for amplitude in taps.amplitudes):
+        yield f"{key}.amplitudes", "must be 1 and -1: a contactor drive gives 0 or full speed"
 
 
 def _lengths(key: str, times: Sequence[float], amplitudes: Floats) -> Iterator[tuple[str, str]]:

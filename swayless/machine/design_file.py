@@ -111,7 +111,7 @@ def _layout(value: Any, indent: str) -> str:
     if isinstance(value, dict):
         lines = [f"{deeper}{json.dumps(key)}: {_layout(item, deeper)}" for key, item in value.items()]
         return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
-    if isinstance(value, list) and isinstance(value[0], dict):
+    if isinstance(value, list) and value and isinstance(value[0], dict):
         items = [deeper + _layout(item, deeper) for item in value]
         return "[\n" + ",\n".join(items) + f"\n{indent}]"
     text = json.dumps(value)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swayless.design.families.closed_form import LARGEST_ORDER
-from swayless.machine.checks import choice, integer, label, machine_name
+from swayless.machine.checks import choice, flag, integer, label, machine_name
 from swayless.machine.problems import RefusedError, plain
 from swayless.machine.record import Member, several
 from swayless.machine.stored_numbers import (
@@ -22,6 +22,7 @@ from swayless.machine.stored_numbers import (
 )
 
 MAX_IMPULSES = 4096
+MAX_BANDS = 8
 MAX_TEXT_LENGTH = 255
 
 
@@ -41,6 +42,8 @@ NAME = Member(machine_name)
 LABEL = Member(label)
 TEXT = Member(_text)
 ORDER = Member(integer(0, LARGEST_ORDER))
+IMPULSES = Member(integer(1, MAX_IMPULSES))
+FLAG = Member(flag)
 
 FINITE = real("finite", lambda _: True)
 AMPLITUDE = real("at least -1000 and at most 1000", lambda value: abs(value) <= 1000.0)
@@ -51,6 +54,8 @@ TOLERANCE = real("above 0 and below 1", lambda value: 0.0 < value < 1.0)
 
 RANGE = ruled(several(POSITIVE, at_least=2, at_most=2), rising_pair)
 BAND = Member(RANGE.check, inward_12)
+FURTHER_BANDS = several(BAND, at_least=0, at_most=MAX_BANDS)
+DAMPING_RANGE = ruled(several(DAMPING, at_least=2, at_most=2), rising_pair)
 TIMES = ruled(several(FINITE, at_least=1, at_most=MAX_IMPULSES), rising_from_zero)
 AMPLITUDES = ruled(several(AMPLITUDE, at_least=1, at_most=MAX_IMPULSES), sums_to_one)
 DELAYS = ruled(several(Member(integer(0, 2**31 - 1)), at_least=1, at_most=MAX_IMPULSES), rising_from_zero)

@@ -1,4 +1,4 @@
-"""From a machine, or one mode, to its design file: what each row is, and what it guarantees on the tick grid.
+"""From a machine, or one row, to its design file: what each row is, and what it guarantees on the tick grid.
 
 Not for: the mathematics (`swayless.design`) or the layout of the file (`swayless.machine.design_document`).
 """
@@ -8,37 +8,29 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import swayless
-from swayless.design import (
-    GridShaper,
-    Guarantee,
-    Shaper,
-    design_shaper,
-    overtravel_s,
-    peak_factor,
-    rope_length_interval_m,
-    solve_on_grid,
-)
 from swayless.errors import DesignError
+from swayless.machine.banking import design_bank
 from swayless.machine.design_document import (
     DesignFile,
+    DoublePendulumRecord,
     DriveRecord,
-    GuaranteeRecord,
-    ModeRecord,
     PlantRecord,
     ShaperRecord,
-    TapsRecord,
 )
 from swayless.machine.design_file import as_stored
 from swayless.machine.drive_section import DriveSection
 from swayless.machine.machine_file import Machine
-from swayless.machine.row_section import RowSection
+from swayless.machine.plant_section import PlantSection, rope_bands
+from swayless.machine.row_design import design_of
+from swayless.machine.row_section import Row
+from swayless.machine.shaper_record import shaper_record
 
 GENERATOR = f"swayless {swayless.__version__}"
 """What a design file says of who made it."""
 
 
 def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _: None) -> DesignFile:
-    """Design every row of a machine.
+    """Design every row of a machine, or its bank.
 
     Parameters
     ----------
@@ -50,39 +42,45 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
     Raises
     ------
     DesignError
-        If a row cannot be designed as asked; the message names the row.
+        If a row or the bank cannot be designed as asked; the message names it.
     """
-    records = []
+    records, bank = [], None
+    tick_s, contactor = machine.controller.tick_s, machine.drive.contactor
     for position, row in enumerate(machine.rows, start=1):
         on_row(row.name)
         try:
-            records.append(design_row(row, tick_s=machine.controller.tick_s))
+            records.append(design_row(row, tick_s=tick_s, contactor=contactor))
         except DesignError as error:
             raise DesignError(f'{machine.source}: [[row]] {position} ("{row.name}"): {error}') from error
-    plant = machine.plant
+    if machine.bank is not None:
+        try:
+            made = design_bank(machine.bank, machine.plant, tick_s=tick_s, contactor=contactor, on_row=on_row)
+        except DesignError as error:
+            raise DesignError(f"{machine.source}: [bank]: {error}") from error
+        records = [shaper_record(row, design) for row, design in zip(made.rows, made.designs, strict=True)]
+        bank = made.record
     design = DesignFile(
         name=machine.name,
         generator=GENERATOR,
         source=machine.source,
         law=machine.controller.law,
-        tick_s=machine.controller.tick_s,
+        tick_s=tick_s,
         number=machine.controller.number,
-        plant=PlantRecord(plant.kind, plant.rope_length_m, plant.frequency_hz, plant.damping_ratio),
+        plant=plant_record(machine.plant),
         drive=drive_record(machine.drive),
         shapers=tuple(records),
+        bank=bank,
     )
     return as_stored(design)
 
 
-def design_mode(
-    row: RowSection, *, drive: DriveSection, name: str, tick_s: float | None, number: str
-) -> DesignFile:
-    """Design one shaper for one mode, without a machine file.
+def design_mode(row: Row, *, drive: DriveSection, name: str, tick_s: float | None, number: str) -> DesignFile:
+    """Design one row without a machine file.
 
     Parameters
     ----------
-    row : RowSection
-        Family, mode, tolerance and parameters.
+    row : RowSection or RobustRow
+        Family, mode or bands, tolerance and parameters.
     drive : DriveSection
         Limits of the command, for generated code.
     name : str
@@ -95,12 +93,9 @@ def design_mode(
     Raises
     ------
     DesignError
-        If the family does not exist for the mode or tolerance, or the tick is too coarse.
+        If there is no such shaper, or the tick is too coarse.
     """
-    frequency_hz = row.mode.frequency_hz
-    kind, rope_m = (
-        ("mode", None) if row.rope_length_m is None else ("crane", (row.rope_length_m, row.rope_length_m))
-    )
+    kind = "mode" if row.rope_range_m is None else "crane"
     design = DesignFile(
         name=name,
         generator=GENERATOR,
@@ -108,73 +103,51 @@ def design_mode(
         law="fixed",
         tick_s=tick_s,
         number=number,
-        plant=PlantRecord(kind, rope_m, (frequency_hz, frequency_hz), row.mode.damping_ratio),
+        plant=PlantRecord(kind, row.rope_range_m, row.frequency_range_hz, row.damping_ratios[0], None),
         drive=drive_record(drive),
-        shapers=(design_row(row, tick_s=tick_s),),
+        shapers=(design_row(row, tick_s=tick_s, contactor=drive.contactor),),
+        bank=None,
     )
     return as_stored(design)
 
 
-def design_row(row: RowSection, *, tick_s: float | None) -> ShaperRecord:
+def design_row(row: Row, *, tick_s: float | None, contactor: bool = False) -> ShaperRecord:
     """Design one row, and solve it on the tick grid where there is one.
 
     Parameters
     ----------
-    row : RowSection
-        Family, mode, tolerance and parameters.
+    row : RowSection or RobustRow
+        Family, mode or bands, tolerance and parameters.
     tick_s : float or None
         Length of a tick; None leaves the design in continuous time.
+    contactor : bool
+        Whether the drive knows only 0 and full speed.
 
     Raises
     ------
     DesignError
-        If the family does not exist for the mode or tolerance, or the tick is too coarse.
+        If there is no such shaper, or the tick is too coarse.
     """
-    shaper = design_shaper(
-        row.family, row.mode, tolerance=row.tolerance, order=row.order, delay_s=row.delay_s
+    return shaper_record(row, design_of(row, tick_s=tick_s, contactor=contactor))
+
+
+def plant_record(plant: PlantSection) -> PlantRecord:
+    """Give the plant as it stands in the design file."""
+    pendulum = plant.double_pendulum
+    if pendulum is None or plant.rope_length_m is None:
+        return PlantRecord(plant.kind, plant.rope_length_m, plant.frequency_hz, plant.damping_ratio, None)
+    upper = rope_bands(plant.rope_length_m, pendulum)[1]
+    record = DoublePendulumRecord(
+        sling_length_m=pendulum.sling_length_m,
+        hook_mass_kg=pendulum.hook_mass_kg,
+        load_mass_kg=pendulum.load_mass_kg,
+        upper_frequency_hz=(upper.low_hz, upper.high_hz),
     )
-    taps = None if tick_s is None else _taps_record(solve_on_grid(shaper, tick_s))
-    return _shaper_record(row, shaper, taps)
+    return PlantRecord(
+        "double_pendulum", plant.rope_length_m, plant.frequency_hz, plant.damping_ratio, record
+    )
 
 
 def drive_record(drive: DriveSection) -> DriveRecord:
     """Give the drive as it stands in the design file."""
     return DriveRecord(**{name: getattr(drive, name) for name in DriveRecord.__dataclass_fields__})
-
-
-def _shaper_record(row: RowSection, shaper: Shaper, taps: TapsRecord | None) -> ShaperRecord:
-    return ShaperRecord(
-        name=row.name,
-        family=row.family,
-        order=row.order,
-        delay_s=row.delay_s,
-        mode=ModeRecord(row.mode.frequency_hz, row.mode.damping_ratio, row.rope_length_m),
-        times_s=tuple(shaper.times_s.tolist()),
-        amplitudes=tuple(shaper.amplitudes.tolist()),
-        duration_s=shaper.duration_s,
-        lower_bound_s=None,
-        overtravel_s=overtravel_s(shaper),
-        peak_factor=peak_factor(shaper),
-        guarantee=_guarantee_record(shaper.guarantee),
-        taps=taps,
-    )
-
-
-def _taps_record(grid: GridShaper) -> TapsRecord:
-    return TapsRecord(
-        delays_ticks=tuple(grid.delays_ticks.tolist()),
-        amplitudes=tuple(grid.amplitudes.tolist()),
-        duration_s=grid.duration_s,
-        overtravel_s=overtravel_s(grid),
-        guarantee=_guarantee_record(grid.guarantee),
-    )
-
-
-def _guarantee_record(guarantee: Guarantee) -> GuaranteeRecord:
-    band = guarantee.band
-    return GuaranteeRecord(
-        tolerance=guarantee.tolerance,
-        frequency_hz=(band.low_hz, band.high_hz),
-        rope_length_m=rope_length_interval_m(band),
-        worst_residual_ratio=guarantee.worst_residual_ratio,
-    )

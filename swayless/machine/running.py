@@ -92,8 +92,15 @@ def stored_taps(design: DesignFile) -> tuple[GridShaper, ...]:
 
 
 def _guarantee(shaper: ShaperRecord, stored: GuaranteeRecord) -> Guarantee:
-    mode = Mode(shaper.mode.frequency_hz, shaper.mode.damping_ratio)
-    return Guarantee(stored.tolerance, mode, Band(*stored.frequency_hz), stored.worst_residual_ratio)
+    lowest, highest = stored.damping_ratio
+    return Guarantee(
+        tolerance=stored.tolerance,
+        mode=Mode(shaper.mode.frequency_hz, lowest),
+        band=Band(*stored.frequency_hz),
+        worst_residual_ratio=stored.worst_residual_ratio,
+        further_bands=tuple(Band(*band) for band in stored.further_frequency_hz),
+        highest_damping_ratio=None if highest == lowest else highest,
+    )
 
 
 def _speed_limits(drive: DriveRecord, is_integer: bool) -> SpeedLimits:

@@ -8,10 +8,10 @@ import pytest
 DOCS = Path(__file__).parents[3] / "docs"
 
 
-def _example_in(page: str, language: str) -> str:
+def _example_in(page: str, language: str, which: int = 0) -> str:
     found = re.findall(rf"```{language}\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL)
     assert found, f"{page} has no {language} example"
-    return str(found[0])
+    return str(found[which])
 
 
 @pytest.fixture(scope="session")
@@ -24,3 +24,9 @@ def machine_text() -> str:
 def design_text() -> str:
     """The complete design file of the documentation."""
     return _example_in("design-file.md", "json")
+
+
+@pytest.fixture(scope="session")
+def bank_text() -> str:
+    """The other machine file of the documentation, which has a bank."""
+    return _example_in("machine-file.md", "toml", 1)

@@ -6,11 +6,31 @@ from pathlib import Path
 import pytest
 
 from swayless.design import FAMILIES
-from swayless.machine import Machine, design_document, load_machine, machine_file
+from swayless.machine import Machine, bank_section, design_document, load_machine, machine_file
+from swayless.machine.bank_section import OptionedTable
 from swayless.machine.problems import Table
 from swayless.machine.record import Record, members
 
 DOCS = Path(__file__).parents[3] / "docs"
+
+OTHER_KEYS = """
+[[row]]
+name = "a"
+family = "zvm"
+order = 2
+rope_length = 5
+[[row]]
+name = "b"
+family = "oatf"
+delay = 1
+rope_length = 5
+[[row]]
+name = "c"
+family = "fd"
+duration = 3
+rope_length = 5
+"""
+"""Rows whose families take keys that the documented rows do not have."""
 
 
 def _keys_asked_for(path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, set[str]]:
@@ -24,25 +44,34 @@ def _keys_asked_for(path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, se
             )
             super().close()
 
+    class WatchedOptions(OptionedTable, Watched):
+        pass
+
     monkeypatch.setattr(machine_file, "Table", Watched)
+    monkeypatch.setattr(bank_section, "OptionedTable", WatchedOptions)
     assert isinstance(load_machine(path), Machine)
     return asked
 
 
 def test_every_key_of_the_machine_file_is_documented_in_its_section(
-    tmp_path: Path, machine_text: str, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, machine_text: str, bank_text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path = tmp_path / "crane.toml"
-    path.write_text(machine_text)
+    asked: dict[str, set[str]] = {}
+    for text in (machine_text + OTHER_KEYS, bank_text):
+        path = tmp_path / "crane.toml"
+        path.write_text(text)
+        for section, keys in _keys_asked_for(path, monkeypatch).items():
+            asked.setdefault(section, set()).update(keys)
     pages = re.split(r"\n## ", (DOCS / "machine-file.md").read_text(encoding="utf-8"))
     section_pages = {"": "At the top", "[crane]": "`[crane]`", "[drive]": "`[drive]`"}
-    section_pages |= {"[controller]": "`[controller]`", "[[row]]": "`[[row]]`"}
-    asked = _keys_asked_for(path, monkeypatch)
+    section_pages |= {"[controller]": "`[controller]`", "[[row]]": "`[[row]]`", "[bank]": "`[bank]`"}
     assert asked.keys() == section_pages.keys()
     for section, keys in asked.items():
         page = next(page for page in pages if page.startswith(section_pages[section]))
         documented = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\|([^|]*)\|", page, re.MULTILINE))))
-        sections_of_their_own = {"crane", "arm", "drive", "controller", "row"} if not section else set()
+        sections_of_their_own = (
+            {"crane", "arm", "drive", "controller", "row", "bank"} if not section else set()
+        )
         assert keys - sections_of_their_own == documented
 
 

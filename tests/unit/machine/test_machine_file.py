@@ -66,7 +66,7 @@ def test_every_key_of_the_documented_file_arrives_in_si(load, machine_text: str)
         inching_speed_m_s=0.04064,
         command_resolution_m_s=0.00254,
     )
-    assert [row.mode.damping_ratio for row in machine.rows] == [0.005, 0.01]
+    assert [row.mode.damping_ratio for row in machine.rows[:2]] == [0.005, 0.01]
 
 
 @pytest.mark.parametrize("name", EXAMPLE_NAMES)

@@ -1,10 +1,10 @@
 /*
  * flexible_arm: command shaper, see flexible_arm_shaper.h.
- * Design SHA-256 28be43e15396b90229d295a82306a669d44f2fbf847e31af22f16c072cadb815.
+ * Design SHA-256 5e7a727f7877192dda8b344381595f325d74949aa4afccca5ba8ddd8dc3c383b.
  */
 #include "flexible_arm_shaper.h"
 
-#if (FLEXIBLE_ARM_SHAPER_DESIGN != 0x28be43e1u)
+#if (FLEXIBLE_ARM_SHAPER_DESIGN != 0x5e7a727fu)
 #error "flexible_arm_shaper.h and flexible_arm_shaper.c belong to different designs"
 #endif
 

@@ -1,10 +1,10 @@
 /*
  * srtc_gantry: command shaper, see srtc_gantry_shaper.h.
- * Design SHA-256 b0d6eebc33859bac2fa659ad26888973d72b7cc08ddf1a9061f8e604556a8d76.
+ * Design SHA-256 842d93933a39f8fb5b13dbc69394c3d7dc40817b388d1bfec08c6c44f1209e2c.
  */
 #include "srtc_gantry_shaper.h"
 
-#if (SRTC_GANTRY_SHAPER_DESIGN != 0xb0d6eebcu)
+#if (SRTC_GANTRY_SHAPER_DESIGN != 0x842d9393u)
 #error "srtc_gantry_shaper.h and srtc_gantry_shaper.c belong to different designs"
 #endif
 

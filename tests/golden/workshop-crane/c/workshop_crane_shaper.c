@@ -1,10 +1,10 @@
 /*
  * workshop_crane: command shaper, see workshop_crane_shaper.h.
- * Design SHA-256 88482ab03e15fd10170952fd6f35645fb940db75acb52afb8c9bb004a21fdbae.
+ * Design SHA-256 64f13f1f59fbddb1a1907504144b000ec702968162de72c0002dbfd7d25df6d2.
  */
 #include "workshop_crane_shaper.h"
 
-#if (WORKSHOP_CRANE_SHAPER_DESIGN != 0x88482ab0u)
+#if (WORKSHOP_CRANE_SHAPER_DESIGN != 0x64f13f1fu)
 #error "workshop_crane_shaper.h and workshop_crane_shaper.c belong to different designs"
 #endif
 

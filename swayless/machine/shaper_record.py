@@ -1,0 +1,96 @@
+"""From a designed row to its record in the design file. Not for: designing, or the layout of the file."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from swayless.design import (
+    GridShaper,
+    Guarantee,
+    overtravel_s,
+    peak_factor,
+    rope_length_interval_m,
+)
+from swayless.machine.design_document import GuaranteeRecord, ModeRecord, ShaperRecord, TapsRecord
+from swayless.machine.robust_row import RobustRow
+from swayless.machine.row_design import RowDesign
+from swayless.machine.row_section import Row, RowSection
+from swayless.plant import Band
+
+_SAME_LENGTH = 1e-11  # relative: more than bands of 12 digits move a rope, less than anybody means
+
+
+def shaper_record(row: Row, design: RowDesign) -> ShaperRecord:
+    """Make the record of a designed row.
+
+    Parameters
+    ----------
+    row : RowSection or RobustRow
+        What was asked for.
+    design : RowDesign
+        What was found.
+    """
+    shaper, taps, mode = design.shaper, design.taps, design.promise.mode
+    return ShaperRecord(
+        name=row.name,
+        family=row.family,
+        **_parameters(row),
+        mode=ModeRecord(mode.frequency_hz, mode.damping_ratio, _rope_m(row)),
+        times_s=tuple(shaper.times_s.tolist()),
+        amplitudes=tuple(shaper.amplitudes.tolist()),
+        duration_s=shaper.duration_s,
+        lower_bound_s=design.lower_bound_s,
+        overtravel_s=overtravel_s(shaper),
+        peak_factor=peak_factor(shaper),
+        guarantee=_guarantee_record(row, shaper.guarantee),
+        taps=None if taps is None else _taps_record(row, taps),
+    )
+
+
+def _parameters(row: Row) -> dict[str, Any]:
+    """Give what only some rows say; null for the others."""
+    if isinstance(row, RowSection):
+        return {"order": row.order, "delay_s": row.delay_s, "amplitude_rule": None, "impulses": None}
+    return {"order": None, "delay_s": None, "amplitude_rule": row.amplitudes, "impulses": row.impulses}
+
+
+def _rope_m(row: Row) -> float | None:
+    return row.rope_length_m if isinstance(row, RowSection) else None
+
+
+def _taps_record(row: Row, taps: GridShaper) -> TapsRecord:
+    return TapsRecord(
+        delays_ticks=tuple(taps.delays_ticks.tolist()),
+        amplitudes=tuple(taps.amplitudes.tolist()),
+        duration_s=taps.duration_s,
+        overtravel_s=overtravel_s(taps),
+        guarantee=_guarantee_record(row, taps.guarantee),
+    )
+
+
+def _guarantee_record(row: Row, guarantee: Guarantee) -> GuaranteeRecord:
+    return GuaranteeRecord(
+        tolerance=guarantee.tolerance,
+        frequency_hz=(guarantee.band.low_hz, guarantee.band.high_hz),
+        further_frequency_hz=tuple((band.low_hz, band.high_hz) for band in guarantee.further_bands),
+        damping_ratio=guarantee.damping_ratios,
+        rope_length_m=_ropes_m(row, guarantee.band),
+        worst_residual_ratio=guarantee.worst_residual_ratio,
+    )
+
+
+def _ropes_m(row: Row, band: Band) -> tuple[float, float]:
+    """Ropes that have the frequencies of a band; those that the row was asked for by as they were given.
+
+    A robust row holds a little more than was asked, to the 12th digit. Of a double pendulum, whose ropes have
+    two bands each, the ropes that were asked for.
+    """
+    asked_m = row.rope_range_m if isinstance(row, RobustRow) else None
+    if isinstance(row, RobustRow) and len(row.bands) > 1 and asked_m is not None:
+        return asked_m
+    shortest_m, longest_m = rope_length_interval_m(band)
+    for end_m in asked_m or ():
+        shortest_m = end_m if math.isclose(shortest_m, end_m, rel_tol=_SAME_LENGTH) else shortest_m
+        longest_m = end_m if math.isclose(longest_m, end_m, rel_tol=_SAME_LENGTH) else longest_m
+    return shortest_m, longest_m
