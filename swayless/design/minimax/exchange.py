@@ -28,6 +28,7 @@ _SHORTFALL = 3e-9  # the same for the linear program: HiGHS leaves 1e-9
 _GAP = 1e-8  # broken half-planes and prices below this, in units of the target, end the exchange
 _AT_LIMIT = 1e-8  # amplitudes and partial sums this near their limit are at it: HiGHS leaves 1e-9
 _SMALLEST_UNIT = 1e-3  # residual vibration that the program counts as 1 when the target is smaller
+_HIGH = 0.9  # of the optimum so far: lower peaks do not decide
 _FIRST_FREQUENCIES = 9  # of the first half-planes, four phases each: a frame that the exchange fills in
 _ROUNDS = 500  # far above the 30 or so of the slowest designs: a bound against cycling
 
@@ -112,15 +113,23 @@ class Exchange:
             if short and not further.size and (missed or self.target_ratio > 0.0):
                 return Minimax(self.taps, vertex.amplitudes, math.inf if missed else peaks.worst, bound)
             broken = np.abs(peaks.value) > (vertex.level + _GAP) * self.unit
-            if not further.size and not broken.any():
-                deciding = self._deciding(vertex, peaks)
-                taps, amplitudes = self._settled(self.taps, vertex.amplitudes, deciding)
-                return Minimax(taps, amplitudes, self._worst(taps, amplitudes), bound)
+            if not further.size:
+                taps, amplitudes = self._settled(vertex, peaks)
+                worst = self._worst(taps, amplitudes)
+                if not broken.any() or worst <= (vertex.level + _GAP) * self.unit:
+                    return Minimax(taps, amplitudes, worst, bound)
+                # Half-planes where the settled amplitudes peak end the search many rounds earlier.
+                ahead = self.held.of(taps).peaks(amplitudes)
+                self._admit(ahead, np.abs(ahead.value) > _HIGH * vertex.level * self.unit)
+            self._admit(peaks, broken)
             self.taps = np.union1d(self.taps, further)
-            self.line = np.append(self.line, peaks.line[broken])
-            self.frequency = np.append(self.frequency, peaks.frequency[broken])
-            self.phase = np.append(self.phase, np.angle(peaks.value[broken]))
         raise DesignError(f"{self.taps.size} amplitudes did not settle in {_ROUNDS} rounds of exchange")
+
+    def _admit(self, peaks: HeldPeaks, chosen: NDArray[np.bool_]) -> None:
+        """Add the half-planes of some peaks to those in use."""
+        self.line = np.append(self.line, peaks.line[chosen])
+        self.frequency = np.append(self.frequency, peaks.frequency[chosen])
+        self.phase = np.append(self.phase, np.angle(peaks.value[chosen]))
 
     def _cuts(self, taps: IndexArray | slice, chosen: NDArray[np.bool_] | slice = slice(None)) -> FloatArray:
         """Half-planes as rows over the times `taps`: the part of the residual vibration in their phase."""
@@ -157,10 +166,9 @@ class Exchange:
         moving = self.held.inside(peaks)
         return Deciding(peaks.line[heavy], peaks.frequency[heavy], weights[heavy], moving[heavy])
 
-    def _settled(
-        self, taps: IndexArray, amplitudes: FloatArray, deciding: Deciding
-    ) -> tuple[IndexArray, FloatArray]:
+    def _settled(self, vertex: Vertex, peaks: HeldPeaks) -> tuple[IndexArray, FloatArray]:
         """Reduce to the times that the optimum uses, with amplitudes to machine precision."""
+        taps, amplitudes, deciding = self.taps, vertex.amplitudes, self._deciding(vertex, peaks)
         used = self._used(amplitudes)
         while True:  # each further pass has dropped a time
             taps, amplitudes = taps[used], amplitudes[used]
