@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from swayless.design.robust.chain import WIDEST_RATIO, Chain, next_start, same
+from swayless.design.robust.chain import WIDEST_RATIO, Chain, Walk, next_start, same
 from swayless.design.robust.crossing import crossing
 from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
 from swayless.design.robust.specified import TOLERANCES
@@ -152,10 +152,11 @@ def cover_with(
     chain = Chain(rows.ideal, Band(low_hz, high_hz).low_hz, high_hz, next_start_hz)
     handicap = np.zeros(number)  # log of what the taps of a row leave, over what the ideal row does
     banks: list[tuple[float, tuple[Row, ...]]] = []
+    size, near = math.log(TOLERANCES[0]), _EQUAL
     for _ in range(_BALANCING_ROUNDS):
-        size = _least_tolerance(chain, handicap, duration_s)
+        size, bands = _least_tolerance(chain, handicap, duration_s, size, near)
         made = list[Row]()
-        for band in chain.bands(np.exp(size - handicap).tolist(), duration_s):
+        for band in bands:
             last = _least_rest(rows, band, TOLERANCES[1], duration_s) if band.high_hz == high_hz else None
             made.append(rows.least(duration_s, band) if last is None else last)
             if on_row is not None:
@@ -165,25 +166,28 @@ def cover_with(
         if np.ptp(sizes) < _UNBALANCED:
             break
         handicap += sizes - size
+        size, near = min(size, 2.0 * float(sizes.min()) - size), max(_EQUAL, 0.01 * float(np.ptp(sizes)))
     return min(banks, key=lambda bank: bank[0])[1]
 
 
-def _least_tolerance(chain: Chain, handicap: FloatArray, duration_s: float) -> float:
-    """Log of the smallest tolerance at which as many rows as there are handicaps cover the range."""
+def _least_tolerance(
+    chain: Chain, handicap: FloatArray, duration_s: float, start: float, near: float
+) -> tuple[float, list[Band]]:
+    """Log of the smallest tolerance, from a start, at which so many rows cover the range; and their bands."""
+    walks: dict[float, Walk] = {}
 
     def excess(size: float) -> float:
-        return chain.excess(np.exp(size - handicap).tolist(), duration_s)
+        walks[size] = chain.walk(np.exp(size - handicap).tolist(), duration_s)
+        return walks[size].excess
 
     lowest, highest = TOLERANCES
-    size = crossing(
-        excess, math.log(lowest), math.log(highest), steepness=_STEEPNESS, near=_EQUAL, apart=_EQUAL
-    )
+    size = crossing(excess, start, math.log(highest), steepness=_STEEPNESS, near=near, apart=_EQUAL)
     what = f"rows = {handicap.size}: {duration_s:g} s hold {chain.low_hz:g} to {chain.high_hz:g} Hz"
     if size is None:
         raise DesignError(f"{what} not even at {highest:g}; more rows or a longer duration do")
-    if excess(size) == -math.inf:
+    if walks[size].excess == -math.inf:
         raise DesignError(f"{what} at {lowest:g} already; fewer rows or a shorter duration do")
-    return size
+    return size, walks[size].bands
 
 
 def _fits(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s: float) -> bool:
@@ -221,7 +225,7 @@ def _least_rest(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s
 def _too_many(chain: Chain, tolerance: float, duration_s: float) -> str:
     """Say what would do where a knob has too few positions."""
     size = crossing(
-        lambda size: chain.excess([tolerance] * MOST_ROWS, math.exp(size)),
+        lambda size: chain.walk([tolerance] * MOST_ROWS, math.exp(size)).excess,
         math.log(duration_s),
         math.log(_LONGEST * duration_s),
         steepness=2.0,

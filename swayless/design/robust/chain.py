@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from swayless.design.robust.rows import ContinuousRows
 from swayless.design.robust.specified import TOLERANCES
@@ -35,9 +36,25 @@ def next_start(next_start_hz: Callable[[float], float], start_hz: float, end_hz:
     if not start_hz < following_hz <= end_hz:
         raise DesignError(
             f"a row from {start_hz:g} to {end_hz:g} Hz is followed by one from {following_hz:g} Hz: must be "
-            "above its start, not above its end; a smaller overlap, a longer duration or a larger tolerance does"
+            "above its start, not above its end; less overlap, a longer duration or a larger tolerance do"
         )
     return following_hz
+
+
+class Walk(NamedTuple):
+    """Rows one after the other, the last one over all that is left.
+
+    Parameters
+    ----------
+    bands : list of Band
+        By rising frequency.
+    excess : float
+        Log of how much longer than allowed the last row must be. Negative infinity where fewer rows do;
+        infinity where a row holds nothing, or far too little is held.
+    """
+
+    bands: list[Band]
+    excess: float
 
 
 @dataclass(frozen=True)
@@ -59,19 +76,8 @@ class Chain:
     high_hz: float
     next_start_hz: Callable[[float], float]
 
-    def excess(self, tolerances: Sequence[float], duration_s: float) -> float:
-        """Log of how much longer than allowed the last row must be, if all others are as wide as they can be.
-
-        Negative infinity where fewer rows do, infinity where a row holds nothing, or far too little is held.
-        """
-        return self._walked(tolerances, duration_s)[1]
-
-    def bands(self, tolerances: Sequence[float], duration_s: float) -> list[Band]:
-        """Bands of the rows, by rising frequency."""
-        return self._walked(tolerances, duration_s)[0]
-
-    def _walked(self, tolerances: Sequence[float], duration_s: float) -> tuple[list[Band], float]:
-        """Bands, and the excess of the last."""
+    def walk(self, tolerances: Sequence[float], duration_s: float) -> Walk:
+        """Put as many rows as tolerances one after the other."""
         allowed = [min(max(tolerance, TOLERANCES[0]), TOLERANCES[1]) for tolerance in tolerances]
         bands: list[Band] = []
         start_hz = self.low_hz
@@ -80,16 +86,16 @@ class Chain:
                 end_hz = self.rows.widest(duration_s, start_hz, tolerance).shaper.guarantee.band.high_hz
                 following_hz = next_start(self.next_start_hz, start_hz, end_hz)
             except DesignError:
-                return bands, -math.inf if self._holds(start_hz, tolerance, duration_s) else math.inf
+                return Walk(bands, -math.inf if self._holds(start_hz, tolerance, duration_s) else math.inf)
             if end_hz >= self.high_hz:
-                return bands, -math.inf
+                return Walk(bands, -math.inf)
             bands.append(Band(start_hz, end_hz))
             start_hz = following_hz
         rest = Band(start_hz, self.high_hz)
         if rest.high_hz > WIDEST_RATIO * rest.low_hz:
-            return bands, math.inf
+            return Walk(bands, math.inf)
         last = self.rows.shortest(rest, allowed[-1])
-        return [*bands, rest], math.log(last.shaper.duration_s / duration_s)
+        return Walk([*bands, rest], math.log(last.shaper.duration_s / duration_s))
 
     def _holds(self, start_hz: float, tolerance: float, duration_s: float) -> bool:
         """Whether a duration does for the widest band from a start: then a row fails by being too long."""

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 
 _TRIALS = 80
-_LEAST_SHARE = 0.01  # of a bracket, that a step leaves on either side
+_LEAST_SHARE = 1e-4  # of a bracket, that a step leaves on either side
 
 
 def crossing(
