@@ -13,7 +13,7 @@ from pathlib import Path
 from swayless.errors import FileError
 from swayless.machine.problems import nearest
 
-EXAMPLE_NAMES = ("srtc-gantry", "workshop-crane", "flexible-arm")
+EXAMPLE_NAMES = ("srtc-gantry", "workshop-crane", "flexible-arm", "srtc-gantry-bank", "double-pendulum")
 """Names of the examples, in the order in which to read them."""
 
 _HERE = Path(__file__).parent
