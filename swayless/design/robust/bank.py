@@ -14,7 +14,7 @@ import numpy as np
 from swayless.design.robust.chain import WIDEST_RATIO, Chain, Walk, next_start, same
 from swayless.design.robust.crossing import crossing
 from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
-from swayless.design.robust.specified import TOLERANCES
+from swayless.design.robust.specified import TOLERANCES, RobustDesign
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 from swayless.plant import Band
@@ -25,12 +25,17 @@ MOST_ROWS = 8
 """Positions of a knob, which no bank exceeds."""
 
 _ON_TIME = 1e-9  # relative: a row this little longer, or looser, than allowed is so by rounding
-_EQUAL = 1e-9  # of the logs of the tolerance and of the last row's duration
+_EQUAL = 1e-9  # of the log of the last row's duration: the rest of it is not used
+_APART = 1e-7  # relative, of tolerances between which the bank jumps to another one, as labels do
 _STEEPNESS = 0.5  # a usual d log(duration) / d log(tolerance), of the first steps
 _UNBALANCED = 1e-6  # relative: rows on ticks are balanced until they leave the same to this
 _BALANCING_ROUNDS = 3
 _SUGGESTION = 1e-3  # relative, of a duration in a message
 _LONGEST = 20.0  # times a duration that is too short: how far a message looks for one that is not
+
+
+def ignore(_: int) -> None:
+    """Report nothing."""
 
 
 def cover(
@@ -42,7 +47,7 @@ def cover(
     duration_s: float | None = None,
     longest_duration_s: float | None = None,
     next_start_hz: Callable[[float], float] = same,
-    on_row: Callable[[int], None] | None = None,
+    on_row: Callable[[int], None] = ignore,
 ) -> tuple[Row, ...]:
     """Cover a range of frequencies with the fewest rows that hold a tolerance.
 
@@ -64,7 +69,7 @@ def cover(
         Duration of all rows but the last, which is as short as what is left allows. Give one of the two.
     next_start_hz : callable
         Where a row must start, of where the one before ends: lower, if rows must overlap. It must not fall.
-    on_row : callable, optional
+    on_row : callable
         Called with the number of rows whenever one is done.
 
     Returns
@@ -87,16 +92,15 @@ def cover(
     >>> [round(row.shaper.guarantee.band.high_hz, 3) for row in rows]
     [0.721, 1.0]
     """
-    allowed_s = longest_duration_s if duration_s is None else duration_s
-    if allowed_s is None or (duration_s is not None and longest_duration_s is not None):
+    given_s = longest_duration_s if duration_s is None else duration_s
+    if given_s is None or (duration_s is not None and longest_duration_s is not None):
         raise DesignError("a bank needs either duration_s or longest_duration_s")
     design_rest = _shortest_rest if duration_s is None else _least_rest
-    start_hz, made = Band(low_hz, high_hz).low_hz, list[Row]()
+    allowed_s, start_hz, made = rows.usable_s(given_s), Band(low_hz, high_hz).low_hz, list[Row]()
     while True:
         rest = design_rest(rows, Band(start_hz, high_hz), tolerance, allowed_s)
         made.append(rows.widest(allowed_s, start_hz, tolerance) if rest is None else rest)
-        if on_row is not None:
-            on_row(len(made))
+        on_row(len(made))
         end_hz = rows.promise_of(made[-1]).band.high_hz
         if rest is not None or end_hz >= high_hz:
             return tuple(made)
@@ -114,7 +118,7 @@ def cover_with(
     *,
     duration_s: float,
     next_start_hz: Callable[[float], float] = same,
-    on_row: Callable[[int], None] | None = None,
+    on_row: Callable[[int], None] = ignore,
 ) -> tuple[Row, ...]:
     """Cover a range of frequencies with a number of rows at the smallest equal tolerance.
 
@@ -149,18 +153,22 @@ def cover_with(
     """
     if not 1 <= number <= MOST_ROWS:
         raise DesignError(f"rows = {number!r}: must be 1 to {MOST_ROWS}")
-    chain = Chain(rows.ideal, Band(low_hz, high_hz).low_hz, high_hz, next_start_hz)
+    chain, allowed_s = (
+        Chain(rows.ideal, Band(low_hz, high_hz).low_hz, high_hz, next_start_hz),
+        rows.usable_s(duration_s),
+    )
     handicap = np.zeros(number)  # log of what the taps of a row leave, over what the ideal row does
     banks: list[tuple[float, tuple[Row, ...]]] = []
     size, near = math.log(TOLERANCES[0]), _EQUAL
     for _ in range(_BALANCING_ROUNDS):
-        size, bands = _least_tolerance(chain, handicap, duration_s, size, near)
+        size, designs = _least_tolerance(chain, handicap, allowed_s, size, near)
         made = list[Row]()
-        for band in bands:
-            last = _least_rest(rows, band, TOLERANCES[1], duration_s) if band.high_hz == high_hz else None
-            made.append(rows.least(duration_s, band) if last is None else last)
-            if on_row is not None:
-                on_row(len(made))
+        for design in designs[:-1]:
+            made.append(rows.follow(design))
+            on_row(len(made))
+        rest = designs[-1].shaper.guarantee.band
+        made.append(_least_rest(rows, rest, TOLERANCES[1], allowed_s) or rows.follow(designs[-1]))
+        on_row(number)
         sizes = np.log([rows.promise_of(row).tolerance for row in made])
         banks.append((float(sizes.max()), tuple(made)))
         if np.ptp(sizes) < _UNBALANCED:
@@ -172,8 +180,8 @@ def cover_with(
 
 def _least_tolerance(
     chain: Chain, handicap: FloatArray, duration_s: float, start: float, near: float
-) -> tuple[float, list[Band]]:
-    """Log of the smallest tolerance, from a start, at which so many rows cover the range; and their bands."""
+) -> tuple[float, list[RobustDesign]]:
+    """Log of the smallest tolerance, from a start, at which so many rows cover the range; and these rows."""
     walks: dict[float, Walk] = {}
 
     def excess(size: float) -> float:
@@ -181,13 +189,13 @@ def _least_tolerance(
         return walks[size].excess
 
     lowest, highest = TOLERANCES
-    size = crossing(excess, start, math.log(highest), steepness=_STEEPNESS, near=near, apart=_EQUAL)
+    size = crossing(excess, start, math.log(highest), steepness=_STEEPNESS, near=near, apart=_APART)
     what = f"rows = {handicap.size}: {duration_s:g} s hold {chain.low_hz:g} to {chain.high_hz:g} Hz"
     if size is None:
         raise DesignError(f"{what} not even at {highest:g}; more rows or a longer duration do")
     if walks[size].excess == -math.inf:
         raise DesignError(f"{what} at {lowest:g} already; fewer rows or a shorter duration do")
-    return size, walks[size].bands
+    return size, walks[size].designs
 
 
 def _fits(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s: float) -> bool:
@@ -215,6 +223,13 @@ def _least_rest(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s
     if not _fits(rows, rest, tolerance, duration_s):
         return None
     if _fits(rows, rest, TOLERANCES[0], duration_s):
+        widest = Band(rest.low_hz, WIDEST_RATIO * rest.low_hz)
+        if _fits(rows, widest, TOLERANCES[0], duration_s):
+            raise DesignError(
+                f"duration_s = {duration_s:g}: longer than a row from {rest.low_hz:g} Hz can use, at "
+                f"{TOLERANCES[0]:g} it holds more than {WIDEST_RATIO:g} times that; a longest duration "
+                "does, or a shorter one"
+            )
         row = rows.widest(duration_s, rest.low_hz, TOLERANCES[0])
         if rows.promise_of(row).band.high_hz >= rest.high_hz:
             return row
@@ -237,4 +252,4 @@ def _too_many(chain: Chain, tolerance: float, duration_s: float) -> str:
         return f"{what}{duration_s:g} s; a longer duration or a larger tolerance needs fewer"
     digit = 10.0 ** (math.floor(size / math.log(10.0)) - 1)
     enough_s = math.ceil(math.exp(size) / digit) * digit
-    return f"{what}{duration_s:g} s; {MOST_ROWS} rows of {enough_s:g} s do, or a larger tolerance"
+    return f"{what}{duration_s:g} s; {MOST_ROWS} rows of about {enough_s:g} s do, or a larger tolerance"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from swayless.design.robust.rows import ContinuousRows
-from swayless.design.robust.specified import TOLERANCES
+from swayless.design.robust.specified import TOLERANCES, RobustDesign
 from swayless.errors import DesignError
 from swayless.plant import Band
 
@@ -46,14 +46,14 @@ class Walk(NamedTuple):
 
     Parameters
     ----------
-    bands : list of Band
+    designs : list of RobustDesign
         By rising frequency.
     excess : float
         Log of how much longer than allowed the last row must be. Negative infinity where fewer rows do;
         infinity where a row holds nothing, or far too little is held.
     """
 
-    bands: list[Band]
+    designs: list[RobustDesign]
     excess: float
 
 
@@ -79,23 +79,24 @@ class Chain:
     def walk(self, tolerances: Sequence[float], duration_s: float) -> Walk:
         """Put as many rows as tolerances one after the other."""
         allowed = [min(max(tolerance, TOLERANCES[0]), TOLERANCES[1]) for tolerance in tolerances]
-        bands: list[Band] = []
+        designs: list[RobustDesign] = []
         start_hz = self.low_hz
         for tolerance in allowed[:-1]:
             try:
-                end_hz = self.rows.widest(duration_s, start_hz, tolerance).shaper.guarantee.band.high_hz
+                design = self.rows.widest(duration_s, start_hz, tolerance)
+                end_hz = design.shaper.guarantee.band.high_hz
                 following_hz = next_start(self.next_start_hz, start_hz, end_hz)
             except DesignError:
-                return Walk(bands, -math.inf if self._holds(start_hz, tolerance, duration_s) else math.inf)
+                return Walk(designs, -math.inf if self._holds(start_hz, tolerance, duration_s) else math.inf)
             if end_hz >= self.high_hz:
-                return Walk(bands, -math.inf)
-            bands.append(Band(start_hz, end_hz))
+                return Walk(designs, -math.inf)
+            designs.append(design)
             start_hz = following_hz
         rest = Band(start_hz, self.high_hz)
         if rest.high_hz > WIDEST_RATIO * rest.low_hz:
-            return Walk(bands, math.inf)
+            return Walk(designs, math.inf)
         last = self.rows.shortest(rest, allowed[-1])
-        return Walk([*bands, rest], math.log(last.shaper.duration_s / duration_s))
+        return Walk([*designs, last], math.log(last.shaper.duration_s / duration_s))
 
     def _holds(self, start_hz: float, tolerance: float, duration_s: float) -> bool:
         """Whether a duration does for the widest band from a start: then a row fails by being too long."""

@@ -60,11 +60,12 @@ def crossing(
         right = min(limit, right + 2.0 * below / steepness)
         below, steepness = function(right), steepness / 2.0
     least, value, before = right, below, math.nan
-    for _ in range(_TRIALS):
+    for trial in range(_TRIALS):
         if math.isnan(left) or right - left <= apart or -near <= value <= 0.0:
             break
-        finite = math.isfinite(above) and math.isfinite(below)
-        share = above / (above - below) if finite else 0.5
+        # A jump draws no secant near: then every third step halves the bracket.
+        drawn = math.isfinite(above) and math.isfinite(below) and trial % 3 < 2
+        share = above / (above - below) if drawn else 0.5
         middle = left + (right - left) * min(max(share, _LEAST_SHARE), 1.0 - _LEAST_SHARE)
         value = function(middle)
         if value > 0.0:

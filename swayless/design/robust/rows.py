@@ -18,8 +18,10 @@ from swayless.design.robust.specified import (
 from swayless.design.robust.ticks import (
     RobustTaps,
     fixed_duration_on_ticks,
+    last_tick,
     least_residual_on_ticks,
     specified_insensitivity_on_ticks,
+    taps_after,
 )
 from swayless.design.shaper import Guarantee
 from swayless.plant import Band
@@ -42,6 +44,12 @@ class RowDesigner(Protocol[Row]):
 
     def least(self, duration_s: float, band: Band) -> Row:
         """Leave the least over a band in a given time."""
+
+    def follow(self, design: RobustDesign) -> Row:
+        """Make the row that leaves least of all that a design in continuous time holds, as long as it."""
+
+    def usable_s(self, duration_s: float) -> float:
+        """Tell how much of a duration a row can use."""
 
     def promise_of(self, row: Row) -> Guarantee:
         """Tell what a row was designed to hold."""
@@ -109,6 +117,14 @@ class ContinuousRows:
             amplitudes=self.amplitudes,
             impulses=self.impulses,
         )
+
+    def follow(self, design: RobustDesign) -> RobustDesign:
+        """Return the design itself."""
+        return design
+
+    def usable_s(self, duration_s: float) -> float:
+        """Return all of it."""
+        return duration_s
 
     def promise_of(self, row: RobustDesign) -> Guarantee:
         """Guarantee of the shaper."""
@@ -181,6 +197,14 @@ class TickRows:
             amplitudes=self.amplitudes,
             impulses=self.impulses,
         )
+
+    def follow(self, design: RobustDesign) -> RobustTaps:
+        """Design with `taps_after`."""
+        return taps_after(design, self.tick_s, self.amplitudes)
+
+    def usable_s(self, duration_s: float) -> float:
+        """Return its whole ticks."""
+        return last_tick(duration_s, self.tick_s) * self.tick_s
 
     def promise_of(self, row: RobustTaps) -> Guarantee:
         """Guarantee of the taps; of the ideal shaper where whole ticks are all there is."""

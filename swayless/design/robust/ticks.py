@@ -154,7 +154,7 @@ def fixed_duration_on_ticks(
     >>> [round(edge_hz, 3) for edge_hz in edges_hz]
     [1.353, 1.714]
     """
-    last = _last_tick(duration_s, tick_s)
+    last = last_tick(duration_s, tick_s)
     ideal = fixed_duration(
         last * tick_s,
         low_hz,
@@ -206,18 +206,39 @@ def least_residual_on_ticks(
     >>> round(design.taps.guarantee.tolerance, 4), round(design.ideal.shaper.guarantee.tolerance, 4)
     (0.0528, 0.05)
     """
-    last = _last_tick(duration_s, tick_s)
+    whole_s = last_tick(duration_s, tick_s) * tick_s
     ideal = least_residual(
-        last * tick_s, band, damping_ratio=damping_ratio, amplitudes=amplitudes, impulses=impulses
+        whole_s, band, damping_ratio=damping_ratio, amplitudes=amplitudes, impulses=impulses
     )
+    return taps_after(ideal, tick_s, amplitudes)
+
+
+def taps_after(ideal: RobustDesign, tick_s: float, amplitudes: Amplitudes) -> RobustTaps:
+    """Find the taps that leave least of all that an ideal design holds, as long as it is.
+
+    Parameters
+    ----------
+    ideal : RobustDesign
+        Its duration is rounded down to whole ticks.
+    tick_s : float
+        Tick of the controller, > 0.
+    amplitudes : {"positive", "bounded", "unity-magnitude"}
+        Sign rule of the ideal design.
+
+    Returns
+    -------
+    RobustTaps
+        The tolerance of the taps' guarantee is what they leave.
+    """
     if amplitudes == "unity-magnitude":
         return RobustTaps(_whole_tick_taps(ideal), ideal)
+    last = last_tick(ideal.shaper.duration_s, tick_s)
     return RobustTaps(
         TickProgram(tick_s, amplitudes, ideal.shaper).least(ideal.shaper.guarantee, last), ideal
     )
 
 
-def _last_tick(duration_s: float, tick_s: float) -> int:
+def last_tick(duration_s: float, tick_s: float) -> int:
     """Round a duration down to whole ticks; a hair below one counts as on it."""
     check_tick(tick_s)
     if not (math.isfinite(duration_s) and duration_s > 0.0):
