@@ -12,15 +12,19 @@ from swayless.plant.pendulum import (
     pendulum_mode,
     pendulum_rope_length_m,
 )
+from swayless.plant.servo_drive import ServoDrive, servo_drive_mode, servo_drive_modes
 
 __all__ = [
     "Band",
     "Mode",
     "Participation",
     "STANDARD_GRAVITY_M_S2",
+    "ServoDrive",
     "double_pendulum_modes",
     "double_pendulum_participation",
     "pendulum_frequency_hz",
     "pendulum_mode",
     "pendulum_rope_length_m",
+    "servo_drive_mode",
+    "servo_drive_modes",
 ]

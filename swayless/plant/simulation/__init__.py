@@ -13,7 +13,7 @@ from swayless.plant.simulation.flexible_arm import ArmTrajectory, FlexibleArm
 from swayless.plant.simulation.hoisting_crane import HoistingCrane
 from swayless.plant.simulation.hook_and_load import HookAndLoad
 from swayless.plant.simulation.hook_and_load_trajectory import HookAndLoadTrajectory
-from swayless.plant.simulation.trajectory import CraneTrajectory
+from swayless.plant.simulation.trajectory import CraneTrajectory, Trajectory
 from swayless.plant.simulation.wind import drag_m_s2, dryden_gusts, one_cosine_gust
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "DrivenCrane",
     "HookAndLoad",
     "FlexibleArm",
+    "Trajectory",
     "CraneTrajectory",
     "HookAndLoadTrajectory",
     "ArmTrajectory",

@@ -10,23 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from swayless.plant.pendulum import STANDARD_GRAVITY_M_S2
-from swayless.plant.simulation.trajectory import FloatArray, check_speed, check_taut
+from swayless.plant.simulation.trajectory import FloatArray, Trajectory, check_speed, check_taut
 
 
 @dataclass(frozen=True, eq=False)
-class HookAndLoadTrajectory:
+class HookAndLoadTrajectory(Trajectory):
     """A simulated move of a crane with a hook and, below it, a load.
-
-    Everything is given at rest and at the end of every tick, before the next reference acts. Shapes are
-    (ticks + 1,), or (cases, ticks + 1) when many cases were simulated.
 
     Parameters
     ----------
-    time_s : ndarray, shape (ticks + 1,)
-    trolley_m, trolley_m_s : ndarray
-        Position and speed of the trolley; it starts at 0.
-    rope_length_m : ndarray
-        From the trolley to the hook.
+    time_s, trolley_m, trolley_m_s, rope_length_m : ndarray
+        As for `Trajectory`; the rope goes to the hook.
     sling_length_m, load_share_ratio : float
         From the hook to the load, and the load's share of the mass of both.
     angles_rad, angles_rad_s : ndarray, shape (2, ...)
@@ -38,10 +32,6 @@ class HookAndLoadTrajectory:
         If rope or sling swings to the horizontal, where it falls slack.
     """
 
-    time_s: FloatArray
-    trolley_m: FloatArray
-    trolley_m_s: FloatArray
-    rope_length_m: FloatArray
     sling_length_m: float
     load_share_ratio: float
     angles_rad: FloatArray
@@ -59,11 +49,6 @@ class HookAndLoadTrajectory:
     def sway_m(self) -> FloatArray:
         """How far the load is ahead of the trolley."""
         return np.asarray(self.hook_sway_m + self.sling_length_m * np.sin(self.angles_rad[1]))
-
-    @property
-    def load_m(self) -> FloatArray:
-        """Horizontal position of the load."""
-        return np.asarray(self.trolley_m + self.sway_m)
 
     @property
     def mode_frequencies_rad_s(self) -> FloatArray:

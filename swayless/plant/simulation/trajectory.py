@@ -6,6 +6,7 @@ Not for: figures and files of it, nor for what was asked of the crane.
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +19,8 @@ FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class CraneTrajectory:
-    """A simulated move of a crane with one swinging load.
+class Trajectory(ABC):
+    """A simulated move of a crane, whatever hangs on its rope.
 
     Everything is given at rest and at the end of every tick, before the next reference acts. Shapes are
     (ticks + 1,), or (cases, ticks + 1) when many cases were simulated.
@@ -30,6 +31,46 @@ class CraneTrajectory:
     trolley_m, trolley_m_s : ndarray
         Position and speed of the trolley; it starts at 0.
     rope_length_m : ndarray
+    """
+
+    time_s: FloatArray
+    trolley_m: FloatArray
+    trolley_m_s: FloatArray
+    rope_length_m: FloatArray
+
+    @property
+    @abstractmethod
+    def sway_m(self) -> FloatArray:
+        """How far the load is ahead of the trolley."""
+
+    @property
+    @abstractmethod
+    def amplitude_m(self) -> FloatArray:
+        """How far the load will sway if trolley speed and rope length stay."""
+
+    @abstractmethod
+    def residual_ratio(self, speed_m_s: float) -> FloatArray:
+        """Amplitude at the end, against that after one step of the speed by `speed_m_s`."""
+
+    @property
+    def load_m(self) -> FloatArray:
+        """Horizontal position of the load."""
+        return np.asarray(self.trolley_m + self.sway_m)
+
+    @property
+    def peak_sway_m(self) -> FloatArray:
+        """Largest sway at any tick, to either side: shape () or (cases,)."""
+        return np.asarray(abs(self.sway_m).max(axis=-1))
+
+
+@dataclass(frozen=True, eq=False)
+class CraneTrajectory(Trajectory):
+    """A simulated move of a crane with one swinging load.
+
+    Parameters
+    ----------
+    time_s, trolley_m, trolley_m_s, rope_length_m : ndarray
+        As for `Trajectory`.
     swing_rad, swing_rad_s : ndarray
         Angle of the rope from the vertical, positive when the load is ahead, and its rate.
 
@@ -39,10 +80,6 @@ class CraneTrajectory:
         If the swing would carry the rope to the horizontal, where ropes fall slack.
     """
 
-    time_s: FloatArray
-    trolley_m: FloatArray
-    trolley_m_s: FloatArray
-    rope_length_m: FloatArray
     swing_rad: FloatArray
     swing_rad_s: FloatArray
 
@@ -53,11 +90,6 @@ class CraneTrajectory:
     def sway_m(self) -> FloatArray:
         """How far the load is ahead of the trolley."""
         return self.rope_length_m * np.sin(self.swing_rad)
-
-    @property
-    def load_m(self) -> FloatArray:
-        """Horizontal position of the load."""
-        return self.trolley_m + self.sway_m
 
     @property
     def amplitude_rad(self) -> FloatArray:

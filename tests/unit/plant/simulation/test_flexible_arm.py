@@ -23,10 +23,12 @@ def test_a_step_at_one_reach_answers_as_magee_eq_1(damping_ratio):
     decay = np.exp(-damping_ratio * phase)
     # 250 rad in steps of 0.1 rad are late by 2e-4 rad, of 0.01 m.
     np.testing.assert_allclose(run.tip_m, 0.01 * (1.0 - decay * swing), rtol=0.0, atol=3e-6)
-    assert run.tip_m_s2[-1] == pytest.approx(
-        (8.0 * math.pi) ** 2 * (0.01 - run.tip_m[-1]) - 2.0 * damping_ratio * 8.0 * math.pi * run.tip_m_s[-1],
-        rel=1e-9,
+    w_rad_s = 8.0 * math.pi
+    acceleration = (
+        decay * w_rad_s**2 * (np.cos(damped * phase) - damping_ratio / damped * np.sin(damped * phase))
     )
+    # The same late phase, of w^2 times 0.01 m; at rest the command has not acted yet.
+    np.testing.assert_allclose(run.tip_m_s2[1:], 0.01 * acceleration[1:], rtol=0.0, atol=2e-3)
 
 
 @pytest.mark.parametrize("hold", ["step", "line"])

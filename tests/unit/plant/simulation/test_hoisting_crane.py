@@ -88,6 +88,7 @@ def test_two_equal_steps_half_a_period_apart_leave_only_the_nonlinearity():
 
 def test_one_step_leaves_the_swing_it_is_compared_with():
     run = HoistingCrane().simulate(np.full(100, 0.01), 4.0, tick_s=0.01)
+    assert run.peak_sway_m == pytest.approx(run.amplitude_m[-1], rel=1e-4)  # a tick beside the peak
     assert run.residual_ratio(0.01) == pytest.approx(1.0, rel=1e-6)  # amplitude^2 / 24 of 1.6e-3 rad
 
 
