@@ -29,6 +29,7 @@ _DAMPINGS = 5  # of a range, at which choices are judged; the best is proved on 
 _MOVES = 50  # of the window; one to three are usual
 _MOST_CHOICES = 250_000  # judged at once, about 0.3 s
 _CUTS = 64  # bands tried where the band may be cut
+_MOST_IMPULSES = 13  # 3^11 choices in the smallest window
 _FAMILIES = ("um-zv", "um-zvd", "um-ei")
 
 Delays = NDArray[np.int64]
@@ -142,6 +143,11 @@ def _check(shaper: Shaper, tick_s: float) -> None:
         raise DesignError(
             f"{shaper.family}: amplitudes {shaper.amplitudes.tolist()} are not +1, -1, ..., +1, as "
             "a contactor needs"
+        )
+    if count > _MOST_IMPULSES:
+        raise DesignError(
+            f"{shaper.family}: {count} impulses are too many to search on whole ticks; must be at most "
+            f"{_MOST_IMPULSES}"
         )
     if shaper.duration_s < (count - 1) * tick_s:
         raise DesignError(
