@@ -9,10 +9,13 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from swayless.controller.output_units import OutputUnits, residual_bounds
-from swayless.controller.ramp import Glider, ramped
+from swayless.controller.phase_filter import FloatPhaseFilter, PhaseFilter
+from swayless.controller.phase_filter_int32 import IntegerPhaseFilter
+from swayless.controller.ramp import Glider, on_grid, ramped
+from swayless.controller.rope import Rope
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.status import ERROR_BITS, Status
-from swayless.controller.tap_filter import tap_filter
+from swayless.controller.tap_filter import TapFilter, tap_filter
 
 # Plain integers: the flag type is an order of magnitude slower, and this runs millions of times.
 _DISABLED, _UNSHAPED, _ROW_WAITS = int(Status.DISABLED), int(Status.UNSHAPED), int(Status.ROW_WAITS)
@@ -36,6 +39,11 @@ class ShaperInput(NamedTuple):
         False wants row 0.
     quick_stop, emergency_stop : bool
         Stop on the quick-stop ramp, unshaped; reference 0 at once.
+    rope_length, hoist_speed : float or int
+        Rope length in m and its change in m/s, positive when the load sinks; in int32 mm and mm/s. Read by
+        blocks with a measured rope only.
+    rope_length_valid : bool
+        False: the rope length is not to be believed.
     """
 
     command: Any = 0
@@ -43,6 +51,9 @@ class ShaperInput(NamedTuple):
     enable: bool = True
     quick_stop: bool = False
     emergency_stop: bool = False
+    rope_length: Any = 0
+    hoist_speed: Any = 0
+    rope_length_valid: bool = True
 
 
 class ShaperOutput(NamedTuple):
@@ -98,7 +109,8 @@ class CommandShaper:
         self._settings, self._limits, self._number = settings, limits, number
         self._tables = settings.row_tables
         self._zero = number.scalar(0)
-        self._last = settings.longest_delay_ticks
+        self._on_grid = settings.clock is not None
+        self._last = settings.longest_lag
         self._bounds = residual_bounds(settings)
         self._units = OutputUnits(settings)
         self._speed_up = Glider(limits.acceleration_step, limits, number)
@@ -108,9 +120,10 @@ class CommandShaper:
 
     def init(self) -> None:
         """Return to the state after power-on: at rest at 0, row 0, nothing latched."""
-        self._filter = tap_filter(self._settings)
+        self._filter = filter_of(self._settings)
+        self._rope = Rope(self._settings.rope, self._number) if self._settings.rope else None
         self._held = self._target = self._command = self._reference = self._zero
-        self._still_ticks = self._last
+        self._still = self._last
         self._row = self._selected_row = self._wanted_row = 0
         self._invalid = self._quick = self._emergency = self._inching = False
         self._status = 0
@@ -128,7 +141,7 @@ class CommandShaper:
         ShaperOutput
             Outputs of the tick.
         """
-        self._status = 0
+        self._status = self._read_rope(inputs)
         command = self._checked(inputs.command)
         self._want_row(inputs)
         self._latch_stops(inputs)
@@ -137,6 +150,18 @@ class CommandShaper:
         else:
             self._move(command)
         return self._outputs()
+
+    def _read_rope(self, inputs: ShaperInput) -> int:
+        if self._rope is None:
+            return 0
+        status = self._rope.read(
+            inputs.rope_length,
+            inputs.hoist_speed,
+            valid=inputs.rope_length_valid,
+            at_rest=not self._filter.is_running,
+        )
+        self._filter.turn(self._rope.length, self._rope.speed)
+        return status
 
     def _checked(self, command: Any) -> Any:
         """Return the command as far as it is finite, within the maximum, above the minimum and new."""
@@ -154,7 +179,9 @@ class CommandShaper:
             self._invalid = False
         if self._invalid:
             self._status |= _COMMAND_INVALID
-        return self._zero if self._invalid or self._zero_commanded else command
+        if self._invalid or self._zero_commanded:
+            return self._zero
+        return on_grid(command, self._limits) if self._on_grid else command
 
     def _finite(self, command: Any) -> tuple[Any, bool]:
         """Clamp the command to the maximum; a command that is not finite becomes 0 and is not valid."""
@@ -203,7 +230,7 @@ class CommandShaper:
         else:
             self._reference = reach if self._reference > 0 else -reach
         self._command = self._target = self._reference
-        self._still_ticks = self._last if self._reference == 0 else 0
+        self._still = self._last if self._reference == 0 else 0
         self._inching = False
         self._filter.rest(self._reference)
 
@@ -213,12 +240,15 @@ class CommandShaper:
             self._row = 0 if self._inching else self._wanted_row
         self._accept(command)
         before, self._command = self._command, ramped(self._command, self._target, self._limits)
-        self._still_ticks = min(self._still_ticks + 1, self._last) if self._command == before else 0
-        if self._still_ticks >= self._tables[self._row].tail:
+        still = min(self._still + self._filter.elapsed, self._last)
+        self._still = still if self._command == before else 0
+        if self._still >= self._tables[self._row].tail:
             self._filter.rest(self._command)
             self._reference = self._command
         else:
             self._reference = self._filter.run(self._command, self._row)
+            if self._filter.has_pushed:
+                self._still = 0
 
     def _accept(self, command: Any) -> None:
         """Make the command the ramp's target, at once or, where amplitudes are negative, at rest only."""
@@ -236,7 +266,7 @@ class CommandShaper:
 
     @property
     def _is_settled(self) -> bool:
-        return self._still_ticks >= self._last
+        return self._still >= self._last
 
     def _inches(self, command: Any, wanted: Any) -> bool:
         limit = self._limits.inching_command
@@ -258,7 +288,8 @@ class CommandShaper:
         row = self._row_at_rest(self._command) if self._is_settled else self._row
         tail = self._tables[row].tail
         down = self._slow_down(self._command, self._zero)
-        ticks = down.ticks + tail if down.ticks > 0 else max(tail - self._still_ticks, 0)
+        still = 0 if down.ticks > 0 else min(self._still, tail)
+        ticks = down.ticks + self._filter.ticks_of(tail - still)
         return self._filter.pending(row) + down.total, ticks
 
     def _foretell_waiting(self) -> tuple[Any, int]:
@@ -266,7 +297,7 @@ class CommandShaper:
         target = self._target
         glider = self._speed_up if abs(target) > abs(self._command) else self._slow_down
         rise = glider(self._command, target)
-        hold = self._last if rise.ticks > 0 else self._last - self._still_ticks
+        hold = self._last if rise.ticks > 0 else self._last - self._still
         down = self._slow_down(target, self._zero)
         row = self._row_at_rest(target)
         change = self._filter.rest_sum(target, row) - self._filter.rest_sum(target, self._row)
@@ -305,3 +336,10 @@ class CommandShaper:
         if self._inching:
             status |= _INCHING
         return status
+
+
+def filter_of(settings: ShaperSettings) -> TapFilter | PhaseFilter:
+    """Make the filter of a block: of its clock, in its number type, at rest at 0."""
+    if settings.clock is None:
+        return tap_filter(settings)
+    return IntegerPhaseFilter(settings) if settings.number.is_integer else FloatPhaseFilter(settings)

@@ -119,7 +119,9 @@ class CommandLimits:
     units_per_m_s: float
 
 
-def command_limits(speeds: SpeedLimits, *, tick_s: float, number: NumberType) -> CommandLimits:
+def command_limits(
+    speeds: SpeedLimits, *, tick_s: float, number: NumberType, on_grid: bool = False
+) -> CommandLimits:
     """Bring the limits of a machine into a number type.
 
     Parameters
@@ -130,6 +132,8 @@ def command_limits(speeds: SpeedLimits, *, tick_s: float, number: NumberType) ->
         Length of a tick.
     number : NumberType
         Target type. In int32 everything is rounded towards the safe side: down.
+    on_grid : bool
+        Bring the largest command down to the grid of the ramp steps, on which the phase clock computes.
 
     Raises
     ------
@@ -146,6 +150,8 @@ def command_limits(speeds: SpeedLimits, *, tick_s: float, number: NumberType) ->
     """
     max_command = _command("max_speed", speeds.max_speed_m_s, speeds, number)
     grid = RampGrid(max_command, number)
+    if on_grid:
+        max_command = grid.floor(max_command)
     steps = [
         grid.unramped_step if value is None else _step(name, value, speeds, tick_s, grid)
         for name, value in (

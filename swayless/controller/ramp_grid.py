@@ -47,6 +47,10 @@ class RampGrid:
         """Step that reaches any command from any other."""
         return self._number.scalar(2.0 * self._above)
 
+    def floor(self, command: Any) -> Any:
+        """Bring a positive command down to the grid."""
+        return self._number.scalar(float(math.floor(Fraction(float(command)) / self.unit) * self.unit))
+
     def step(self, change: Fraction) -> Any:
         """Bring a change per tick to the grid.
 

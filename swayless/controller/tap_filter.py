@@ -24,6 +24,12 @@ class TapFilter(ABC):
         Constants in the number type of the filter.
     """
 
+    elapsed = 1
+    """What passes in a tick, in the unit of the lags: a tick."""
+
+    has_pushed = False
+    """Whether the last tick changed more than its command did: never."""
+
     def __init__(self, settings: ShaperSettings) -> None:
         self._zero = settings.number.scalar(0)
         self._tables = settings.row_tables
@@ -37,6 +43,14 @@ class TapFilter(ABC):
     def is_running(self) -> bool:
         """Whether commands within reach of the taps may differ."""
         return self._lapped or self._head < self._last
+
+    def turn(self, length: Any, speed: Any) -> None:
+        """Take the rope of a tick, which moves no tap."""
+        del length, speed
+
+    def ticks_of(self, lag: int) -> int:
+        """Ticks in which a lag passes."""
+        return lag
 
     def rest(self, command: Any) -> None:
         """Enter rest at `command`, or stay there. The reference equals the command."""

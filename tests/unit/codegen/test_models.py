@@ -11,7 +11,8 @@ import pytest
 from swayless.codegen import TARGETS, generate
 from swayless.codegen.c_model import CModel
 from swayless.codegen.st_model import StModel
-from swayless.controller import ROPE_BITS, Status
+from swayless.controller import Status
+from swayless.controller.status import ROPE_BITS
 from swayless.errors import CodegenError
 from tests.unit.codegen.test_provenance import ORIGIN
 from tests.unit.controller.blocks import EI, UM_SPLIT, ZVD, block

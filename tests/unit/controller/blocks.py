@@ -1,6 +1,7 @@
 """Small command shapers to test with, built from plain numbers."""
 
 import copy
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -17,6 +18,10 @@ from swayless.controller import (
     number_type,
 )
 from swayless.controller.number import amplitudes_on_lattice
+from swayless.controller.phase_clock import phase_clock
+from swayless.controller.phase_taps import phase_taps
+from swayless.controller.rope import rope_settings
+from swayless.design import design_shaper
 from swayless.design.shaper import Guarantee
 from swayless.plant import Band, Mode
 
@@ -51,6 +56,34 @@ def block(*rows, number="double", **limits):
     bank = Bank(tuple(Row(f"row {i}", "test", taps(row, number)) for i, row in enumerate(rows, start=1)))
     speeds = SpeedLimits(**limits)
     return ShaperSettings(bank, command_limits(speeds, tick_s=TICK_S, number=number_type(number)))
+
+
+def phase_block(
+    number="double",
+    *,
+    family="zvd",
+    damping_ratio=0.0,
+    rope_length_m=(3.0, 9.0),
+    hoist_speed_m_s=0.4,
+    tick_s=0.01,
+    **limits,
+):
+    """Settings of a phase clock with one row of a family; limits as in SpeedLimits."""
+    kind = number_type(number)
+    limits.setdefault("max_speed_m_s", 0.8)
+    limits.setdefault("acceleration_m_s2", 0.4)
+    limits.setdefault("deceleration_m_s2", limits["acceleration_m_s2"])
+    limits.setdefault("quick_stop_m_s2", 2.0 * limits["acceleration_m_s2"])
+    if number == "int32":
+        limits.setdefault("units_per_m_s", COUNTS_PER_M_S)
+    shaper = design_shaper(family, Mode(1.0, damping_ratio))
+    phases_rad = 2.0 * np.pi * shaper.times_s
+    rope = rope_settings(rope_length_m, hoist_speed_m_s, tick_s=tick_s, number=kind)
+    clock = phase_clock(rope, tick_s=tick_s, most_phase_rad=float(phases_rad[-1]), number=kind)
+    guarantee = replace(shaper.guarantee, tolerance=0.051)  # the split between ticks needs some
+    made = phase_taps(phases_rad, shaper.amplitudes, tick_s=tick_s, guarantee=guarantee, clock=clock)
+    speeds = command_limits(SpeedLimits(**limits), tick_s=tick_s, number=kind, on_grid=True)
+    return ShaperSettings(Bank((Row("row 1", family, made),)), speeds, rope)
 
 
 def command_of(settings, ratio):
