@@ -75,7 +75,7 @@ class Response:
     def peaks(self, amplitudes: FloatArray, low: float, high: float) -> Peaks:
         """Find every local maximum between `low` and `high` cycles per duration."""
         points = math.ceil(_POINTS_PER_CYCLE * (high - low)) + 9
-        grid, step = np.linspace(low, high, points if high > low else 1, retstep=True)
+        grid, step = np.linspace(low, high, points, retstep=True)
         ratio = np.abs(self.columns(grid) @ amplitudes)
         top = np.flatnonzero((ratio >= np.append(-1.0, ratio[:-1])) & (ratio >= np.append(ratio[1:], -1.0)))
         left, right = np.maximum(grid[top] - step, low), np.minimum(grid[top] + step, high)

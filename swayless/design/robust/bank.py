@@ -11,10 +11,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from swayless.design.robust.chain import WIDEST_RATIO, Chain, Walk, next_start, same
+from swayless.design.robust.chain import Chain, Walk, next_start, same
 from swayless.design.robust.crossing import crossing
+from swayless.design.robust.demand import TOLERANCES, WIDEST_RATIO
 from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
-from swayless.design.robust.specified import TOLERANCES, RobustDesign
+from swayless.design.robust.specified import RobustDesign
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 from swayless.plant import Band
@@ -223,13 +224,6 @@ def _least_rest(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s
     if not _fits(rows, rest, tolerance, duration_s):
         return None
     if _fits(rows, rest, TOLERANCES[0], duration_s):
-        widest = Band(rest.low_hz, WIDEST_RATIO * rest.low_hz)
-        if _fits(rows, widest, TOLERANCES[0], duration_s):
-            raise DesignError(
-                f"duration_s = {duration_s:g}: longer than a row from {rest.low_hz:g} Hz can use, at "
-                f"{TOLERANCES[0]:g} it holds more than {WIDEST_RATIO:g} times that; a longest duration "
-                "does, or a shorter one"
-            )
         row = rows.widest(duration_s, rest.low_hz, TOLERANCES[0])
         if rows.promise_of(row).band.high_hz >= rest.high_hz:
             return row

@@ -10,13 +10,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from swayless.design.robust.demand import RULES, TOLERANCES, WIDEST_RATIO
+from swayless.design.robust.exact import worst_at_ends
 from swayless.design.robust.rows import ContinuousRows
-from swayless.design.robust.specified import TOLERANCES, RobustDesign
+from swayless.design.robust.specified import RobustDesign
 from swayless.errors import DesignError
 from swayless.plant import Band
-
-WIDEST_RATIO = 8.0
-"""Largest ratio of the ends of one row's band."""
 
 
 def same(end_hz: float) -> float:
@@ -100,5 +99,5 @@ class Chain:
 
     def _holds(self, start_hz: float, tolerance: float, duration_s: float) -> bool:
         """Whether a duration does for the widest band from a start: then a row fails by being too long."""
-        widest = Band(start_hz, WIDEST_RATIO * start_hz)
-        return self.rows.shortest(widest, tolerance).shaper.duration_s <= duration_s
+        rule, damping_ratio = RULES[self.rows.amplitudes], self.rows.damping_ratio
+        return worst_at_ends(duration_s * start_hz, damping_ratio, tolerance, rule)[1] <= tolerance
