@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from swayless.controller.number import NumberType
+from swayless.controller.rope import RopeSettings
 from swayless.controller.settings import ShaperSettings
 
 
@@ -51,7 +53,7 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     """
     units = settings.limits.units
     rows = len(settings.bank.rows)
-    return (
+    pins = (
         Pin("enable", "Enable", "bool", "false: row 0 is wanted, ramped and unshaped", st_initial="TRUE"),
         Pin(
             "emergency_stop",
@@ -78,6 +80,39 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
             "Selector",
             "row",
             f"0 unshaped, 1 to {rows} rows; anything else keeps the last valid one",
+        ),
+    )
+    return pins if settings.rope is None else (*pins, *_rope_pins(settings.rope, settings.number))
+
+
+def _rope_pins(rope: RopeSettings, number: NumberType) -> tuple[Pin, ...]:
+    """List what a measured rope adds to the inputs."""
+    length, speed = (
+        ("rope_length_mm", "hoist_speed_mm_s") if number.is_integer else ("rope_length_m", "hoist_speed_m_s")
+    )
+    return (
+        Pin(
+            length,
+            "RopeLength",
+            "real",
+            f"{rope.shortest:.6g} to {rope.longest:.6g}: clamped; the last one holds if it cannot be true",
+            "m",
+            "mm",
+        ),
+        Pin(
+            speed,
+            "HoistSpeed",
+            "real",
+            "rate of change of the length, positive when the load sinks; clamped",
+            "m/s",
+            "mm/s",
+        ),
+        Pin(
+            "rope_length_valid",
+            "RopeLengthValid",
+            "bool",
+            "false: the rope length is not to be believed",
+            st_initial="TRUE",
         ),
     )
 

@@ -28,11 +28,13 @@ def run_reference(settings: ShaperSettings, inputs: NDArray[np.void]) -> NDArray
     shaper = CommandShaper(settings)
     scalar = settings.number.scalar
     outputs = np.empty(inputs.size, dtype=output_dtype(settings.number))
-    columns = [
-        inputs[name].tolist() for name in ("command", "selector", "enable", "quick_stop", "emergency_stop")
-    ]
-    for tick, (command, selector, enable, quick, emergency) in enumerate(zip(*columns, strict=True)):
-        out = shaper.step(ShaperInput(scalar(command), selector, enable, quick, emergency))
+    reals = {name for name in inputs.dtype.names or () if inputs.dtype[name].kind in "fi"}
+    columns = {
+        name: map(scalar, inputs[name].tolist()) if name in reals else inputs[name].tolist()
+        for name in inputs.dtype.names or ()
+    }
+    for tick, values in enumerate(zip(*columns.values(), strict=True)):
+        out = shaper.step(ShaperInput(**dict(zip(columns, values, strict=True))))
         outputs[tick] = (
             out.reference,
             out.stop_distance,

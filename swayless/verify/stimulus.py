@@ -36,18 +36,19 @@ class Stimulus:
     inputs: NDArray[np.void]
 
 
-def input_dtype(number: NumberType) -> np.dtype[np.void]:
-    """Record type of the inputs, laid out as the C structure is."""
-    return np.dtype(
-        [
-            ("enable", np.bool_),
-            ("emergency_stop", np.bool_),
-            ("quick_stop", np.bool_),
-            ("command", COMMAND_TYPES[number.name]),
-            ("selector", np.uint8),
-        ],
-        align=True,
-    )
+def input_dtype(settings: ShaperSettings) -> np.dtype[np.void]:
+    """Record type of the inputs of a block, laid out as the C structure is."""
+    real = COMMAND_TYPES[settings.number.name]
+    fields = [
+        ("enable", np.bool_),
+        ("emergency_stop", np.bool_),
+        ("quick_stop", np.bool_),
+        ("command", real),
+        ("selector", np.uint8),
+    ]
+    if settings.rope is not None:
+        fields += [("rope_length", real), ("hoist_speed", real), ("rope_length_valid", np.bool_)]
+    return np.dtype(fields, align=True)
 
 
 def output_dtype(number: NumberType) -> np.dtype[np.void]:
@@ -84,7 +85,7 @@ class _Builder:
         self.max = float(limits.max_command)
 
     def blank(self, ticks: int) -> NDArray[np.void]:
-        inputs = np.zeros(ticks, dtype=input_dtype(self.settings.number))
+        inputs = np.zeros(ticks, dtype=input_dtype(self.settings))
         inputs["enable"] = True
         inputs["selector"] = 1
         return inputs

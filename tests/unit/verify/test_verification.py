@@ -53,7 +53,7 @@ def test_stimuli_toggle_every_input_and_repeat_with_their_seed(block):
     made = list(stimuli(settings, ticks=5000))
     again = list(stimuli(settings, ticks=5000))
     everything = np.concatenate([stimulus.inputs for stimulus in made])
-    assert everything.dtype == input_dtype(settings.number)
+    assert everything.dtype == input_dtype(settings)
     for name in ("enable", "emergency_stop", "quick_stop"):
         assert set(everything[name].tolist()) == {False, True}
     assert set(range(6)) - {5} <= set(everything["selector"].tolist())
