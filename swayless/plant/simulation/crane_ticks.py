@@ -92,19 +92,7 @@ def crane_inputs(
         If a value is not finite, a rope length not positive, or a shape does not fit.
     """
     check_tick(tick_s)
-    reference = finite("reference_m_s", reference_m_s)
-    rope = finite("rope_length_m", rope_length_m)
-    if not (rope > 0.0).all():
-        raise PlantError(f"rope_length_m = {float(rope.min())!r}: must be > 0 at every tick")
-    if reference.ndim not in {1, 2} or reference.size == 0:
-        raise PlantError(f"reference_m_s of shape {reference.shape}: must be (ticks,) or (cases, ticks)")
-    ticks = reference.shape[-1]
-    wind = _of_length("wind_m_s2", finite("wind_m_s2", wind_m_s2), ticks)
-    rope = _of_length("rope_length_m", rope, ticks + 1)
-    cases = _cases(reference, wind, rope)
-    reference, wind = np.broadcast_to(reference, (*cases, ticks)), np.broadcast_to(wind, (*cases, ticks))
-    rope = np.broadcast_to(rope, (*cases, ticks + 1))
-
+    reference, rope, wind = _of_one_shape(reference_m_s, rope_length_m, wind_m_s2)
     begins_m_s, ends_m_s = reference_ends(reference, hold)
     hoist_m_s = np.diff(rope) / tick_s
     parts = CraneTick(
@@ -119,7 +107,7 @@ def crane_inputs(
     return CraneInputs(
         ticks=parts,
         tick_s=tick_s,
-        time_s=tick_s * np.arange(ticks + 1, dtype=np.float64),
+        time_s=tick_s * np.arange(rope.shape[-1], dtype=np.float64),
         rope_length_m=rope,
         reference_m_s=_after_rest(ends_m_s),
         travel_m=_after_rest(np.cumsum(0.5 * tick_s * (begins_m_s + ends_m_s), axis=-1)),
@@ -158,6 +146,26 @@ def _before(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _after_rest(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([np.zeros_like(values[..., :1]), values], axis=-1)
+
+
+def _of_one_shape(
+    reference_m_s: ArrayLike, rope_length_m: ArrayLike, wind_m_s2: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Give reference, rope and wind as many cases and ticks each; the rope has one value more a case."""
+    reference = finite("reference_m_s", reference_m_s)
+    if reference.ndim not in {1, 2} or reference.size == 0:
+        raise PlantError(f"reference_m_s of shape {reference.shape}: must be (ticks,) or (cases, ticks)")
+    ticks = reference.shape[-1]
+    rope = _of_length("rope_length_m", finite("rope_length_m", rope_length_m), ticks + 1)
+    if not (rope > 0.0).all():
+        raise PlantError(f"rope_length_m = {float(rope.min())!r}: must be > 0 at every tick")
+    wind = _of_length("wind_m_s2", finite("wind_m_s2", wind_m_s2), ticks)
+    cases = _cases(reference, wind, rope)
+    return (
+        np.broadcast_to(reference, (*cases, ticks)),
+        np.broadcast_to(rope, (*cases, ticks + 1)),
+        np.broadcast_to(wind, (*cases, ticks)),
+    )
 
 
 def _of_length(name: str, values: NDArray[np.float64], length: int) -> NDArray[np.float64]:

@@ -16,6 +16,8 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from swayless.errors import PlantError
+
 Value: TypeAlias = "float | NDArray[np.float64]"
 """One number of one case, or of every case: shape (cases,)."""
 
@@ -78,7 +80,7 @@ def integrate(
     equations : Equations
         The plant.
     start : State
-        Before the first tick; one number each, the same for all cases.
+        Before the first tick; finite numbers, the same for all cases.
     ticks : named tuple of ndarray, each of shape (ticks,) or (cases, ticks)
         The inputs.
     tick_s : float
@@ -90,10 +92,17 @@ def integrate(
     -------
     ndarray, shape (numbers of the state, ticks + 1) or (numbers of the state, cases, ticks + 1)
 
+    Raises
+    ------
+    PlantError
+        If the plant does not start from a finite state.
+
     References
     ----------
     E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), table II.1.2.
     """
+    if not np.isfinite(start).all():
+        raise PlantError(f"state at the beginning = {tuple(start)!r}: must be finite")
     columns = np.asarray(ticks)
     xp = np if columns.ndim == 3 else math
     rows = columns.transpose(2, 0, 1).copy() if xp is np else columns.T.tolist()

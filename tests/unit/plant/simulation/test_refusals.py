@@ -36,6 +36,7 @@ CRANE = HoistingCrane()
         ({"rope_length_m": np.full((3, 1), 4.0), "wind_m_s2": np.zeros((2, 1))}, r"must have as many cases"),
         ({"tick_s": 0.0}, r"tick_s = 0.0: must be finite and > 0"),
         ({"tick_s": math.nan}, r"tick_s = nan: must be finite and > 0"),
+        ({"swing_rad": math.nan}, r"state at the beginning = \(nan, 0.0\): must be finite"),
         ({"hold": "spline"}, r"hold = 'spline': must be 'step' or 'line'"),
     ],
 )
