@@ -15,7 +15,6 @@ from swayless.design.robust.chain import Chain, Walk, next_start, same
 from swayless.design.robust.crossing import crossing
 from swayless.design.robust.demand import TOLERANCES, WIDEST_RATIO
 from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
-from swayless.design.robust.specified import RobustDesign
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 from swayless.plant import Band
@@ -27,10 +26,11 @@ MOST_ROWS = 8
 
 _ON_TIME = 1e-9  # relative: a row this little longer, or looser, than allowed is so by rounding
 _EQUAL = 1e-9  # of the log of the last row's duration: the rest of it is not used
-_APART = 1e-7  # relative, of tolerances between which the bank jumps to another one, as labels do
+_APART = 1e-4  # relative, of tolerances between which the bank jumps to another one, as labels do
 _STEEPNESS = 0.5  # a usual d log(duration) / d log(tolerance), of the first steps
 _UNBALANCED = 1e-6  # relative: rows on ticks are balanced until they leave the same to this
 _BALANCING_ROUNDS = 3
+_JUMPED = 1e-5  # of the log of the last row's duration: a shorter one shows a jump, which nothing balances
 _SUGGESTION = 1e-3  # relative, of a duration in a message
 _LONGEST = 20.0  # times a duration that is too short: how far a message looks for one that is not
 
@@ -162,7 +162,7 @@ def cover_with(
     banks: list[tuple[float, tuple[Row, ...]]] = []
     size, near = math.log(TOLERANCES[0]), _EQUAL
     for _ in range(_BALANCING_ROUNDS):
-        size, designs = _least_tolerance(chain, handicap, allowed_s, size, near)
+        size, (designs, excess) = _least_tolerance(chain, handicap, allowed_s, size, near)
         made = list[Row]()
         for design in designs[:-1]:
             made.append(rows.follow(design))
@@ -172,7 +172,7 @@ def cover_with(
         on_row(number)
         sizes = np.log([rows.promise_of(row).tolerance for row in made])
         banks.append((float(sizes.max()), tuple(made)))
-        if np.ptp(sizes) < _UNBALANCED:
+        if np.ptp(sizes) < _UNBALANCED or excess < -_JUMPED:
             break
         handicap += sizes - size
         size, near = min(size, 2.0 * float(sizes.min()) - size), max(_EQUAL, 0.01 * float(np.ptp(sizes)))
@@ -181,7 +181,7 @@ def cover_with(
 
 def _least_tolerance(
     chain: Chain, handicap: FloatArray, duration_s: float, start: float, near: float
-) -> tuple[float, list[RobustDesign]]:
+) -> tuple[float, Walk]:
     """Log of the smallest tolerance, from a start, at which so many rows cover the range; and these rows."""
     walks: dict[float, Walk] = {}
 
@@ -196,7 +196,7 @@ def _least_tolerance(
         raise DesignError(f"{what} not even at {highest:g}; more rows or a longer duration do")
     if walks[size].excess == -math.inf:
         raise DesignError(f"{what} at {lowest:g} already; fewer rows or a shorter duration do")
-    return size, walks[size].designs
+    return size, walks[size]
 
 
 def _fits(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s: float) -> bool:

@@ -9,6 +9,8 @@ import math
 from collections.abc import Callable
 
 _TRIALS = 80
+_JUMP = 1e3  # a function steeper than this jumps
+_RESOLVED = 1e-12  # width of a bracket that rounding allows
 _LEAST_SHARE = 1e-4  # of a bracket, that a step leaves on either side
 
 
@@ -34,7 +36,7 @@ def crossing(
     near : float
         Value below 0 by no more than this, at which the search ends.
     apart : float
-        Width of the bracket at which it ends too.
+        Width of the bracket at which it ends too, where the function jumps.
 
     Returns
     -------
@@ -61,7 +63,8 @@ def crossing(
         below, steepness = function(right), steepness / 2.0
     least, value, before = right, below, math.nan
     for trial in range(_TRIALS):
-        if math.isnan(left) or right - left <= apart or -near <= value <= 0.0:
+        width, jump = right - left, above - below > _JUMP * (right - left)
+        if math.isnan(left) or width <= (apart if jump else _RESOLVED) or -near <= value <= 0.0:
             break
         # A jump draws no secant near: then every third step halves the bracket.
         drawn = math.isfinite(above) and math.isfinite(below) and trial % 3 < 2

@@ -144,8 +144,7 @@ class TickRows:
     tick_s : float
         Tick of the controller, > 0.
     amplitudes, impulses, damping_ratio
-        As for `ContinuousRows`. Rows of unity magnitude are moved to whole ticks, levels between being
-        beyond a contactor: they are designed for a promise that their taps may miss, and say what they leave.
+        As for `ContinuousRows`. Rows of unity magnitude switch on whole ticks alone, as contactors must.
 
     Examples
     --------
@@ -207,9 +206,8 @@ class TickRows:
         return last_tick(duration_s, self.tick_s) * self.tick_s
 
     def promise_of(self, row: RobustTaps) -> Guarantee:
-        """Guarantee of the taps; of the ideal shaper where whole ticks are all there is."""
-        whole = self.amplitudes == "unity-magnitude"
-        return row.ideal.shaper.guarantee if whole else row.taps.guarantee
+        """Guarantee of the taps."""
+        return row.taps.guarantee
 
     def duration_s_of(self, row: RobustTaps) -> float:
         """Duration of the taps."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from swayless.design.grid_shaper import GridShaper, check_tick
 from swayless.design.robust.specified import (
@@ -19,6 +19,7 @@ from swayless.design.robust.specified import (
     specified_insensitivity,
 )
 from swayless.design.robust.tick_program import TickProgram
+from swayless.design.robust.whole_ticks import whole_tick_fixed_duration, whole_tick_taps
 from swayless.errors import DesignError
 from swayless.plant import Band
 
@@ -67,8 +68,8 @@ def specified_insensitivity_on_ticks(
     damping_ratio : float or (float, float)
         One value, or the lowest and highest: 0 to 0.2.
     amplitudes : {"positive", "bounded", "unity-magnitude"}
-        Sign rule. "unity-magnitude" is for drives that know no level between (`whole_tick_taps`): the ideal
-        switches are moved to whole ticks, and the guarantee says what that leaves.
+        Sign rule. "unity-magnitude" is for drives that know no level between: switches on whole ticks alone
+        (`whole_tick_taps`).
     impulses : int, optional
         With "unity-magnitude": exactly so many.
 
@@ -92,7 +93,7 @@ def specified_insensitivity_on_ticks(
         band, tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes, impulses=impulses
     )
     if amplitudes == "unity-magnitude":
-        return RobustTaps(_whole_tick_taps(ideal), ideal)
+        return RobustTaps(whole_tick_taps(ideal.shaper, tick_s), ideal)
     program, promise = TickProgram(tick_s, amplitudes, ideal.shaper), ideal.shaper.guarantee
     fewest = max(1, math.ceil(ideal.lower_bound_s / tick_s))
     for last in range(fewest, fewest + _MOST_EXTRA + 1):
@@ -164,7 +165,7 @@ def fixed_duration_on_ticks(
         impulses=impulses,
     )
     if amplitudes == "unity-magnitude":
-        return RobustTaps(_whole_tick_taps(ideal), ideal)
+        return RobustTaps(whole_tick_fixed_duration(ideal.shaper, tick_s), ideal)
     return RobustTaps(TickProgram(tick_s, amplitudes, ideal.shaper).widest(last), ideal)
 
 
@@ -231,7 +232,10 @@ def taps_after(ideal: RobustDesign, tick_s: float, amplitudes: Amplitudes) -> Ro
         The tolerance of the taps' guarantee is what they leave.
     """
     if amplitudes == "unity-magnitude":
-        return RobustTaps(_whole_tick_taps(ideal), ideal)
+        anything = replace(ideal.shaper, guarantee=replace(ideal.shaper.guarantee, tolerance=1.0))
+        taps = whole_tick_taps(anything, tick_s)
+        left = replace(taps.guarantee, tolerance=taps.guarantee.worst_residual_ratio)
+        return RobustTaps(replace(taps, guarantee=left), ideal)
     last = last_tick(ideal.shaper.duration_s, tick_s)
     return RobustTaps(
         TickProgram(tick_s, amplitudes, ideal.shaper).least(ideal.shaper.guarantee, last), ideal
@@ -247,10 +251,3 @@ def last_tick(duration_s: float, tick_s: float) -> int:
     if last < 1:
         raise DesignError(f"duration_s = {duration_s!r}: must be at least a tick, {tick_s:g} s")
     return last
-
-
-def _whole_tick_taps(ideal: RobustDesign) -> GridShaper:
-    """Refuse what needs switches on whole ticks."""
-    raise DesignError(
-        f"{ideal.shaper.family}: 'unity-magnitude' on whole ticks needs levels between; use 'bounded'"
-    )
