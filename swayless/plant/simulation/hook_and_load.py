@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from types import ModuleType
 
 from numpy.typing import ArrayLike
@@ -76,10 +77,15 @@ class HookAndLoad:
                 raise PlantError(f"{name} = {value!r}: must be finite and > 0")
         check_damping(self.damping_ratio)
 
-    @property
+    @cached_property
     def load_share_ratio(self) -> float:
         """Load mass over the mass of hook and load."""
         return self.load_mass_kg / (self.hook_mass_kg + self.load_mass_kg)
+
+    @cached_property
+    def _pull_m_s2(self) -> float:
+        """Gravity over the hook's share of the mass: what straightens a bent rope."""
+        return STANDARD_GRAVITY_M_S2 / (1.0 - self.load_share_ratio)
 
     def simulate(
         self,
@@ -172,11 +178,10 @@ class HookAndLoad:
         return (rope - share * cosine * sling) * scale, (sling - cosine * rope) * scale
 
     def _stiffness_s2(self, length_m: Value) -> tuple[Value, Value]:
-        """Trace and square root of the determinant of the matrix of w^2 of the small vibrations."""
-        hook_share = 1.0 - self.load_share_ratio
-        per_m = STANDARD_GRAVITY_M_S2 / hook_share
-        trace = per_m * (1.0 / length_m + 1.0 / self.sling_length_m)
-        return trace, per_m * (hook_share / (length_m * self.sling_length_m)) ** 0.5
+        """Trace and determinant (in s-4) of the matrix of w^2 of the small vibrations."""
+        per_m2 = 1.0 / (length_m * self.sling_length_m)
+        trace = self._pull_m_s2 * per_m2 * (length_m + self.sling_length_m)
+        return trace, self._pull_m_s2 * STANDARD_GRAVITY_M_S2 * per_m2
 
     def _drag(
         self, xp: ModuleType, length_m: Value, hook_rate: Value, sling_rate: Value
@@ -185,9 +190,9 @@ class HookAndLoad:
 
         A matrix of two rows has the square root (W + sqrt(det W)) / sqrt(trace W + 2 sqrt(det W)).
         """
-        trace, root = self._stiffness_s2(length_m)
+        trace, determinant = self._stiffness_s2(length_m)
+        root = xp.sqrt(determinant)
         factor = 2.0 * self.damping_ratio / xp.sqrt(trace + 2.0 * root)
-        per_m = STANDARD_GRAVITY_M_S2 / (1.0 - self.load_share_ratio)
-        hook = per_m * (hook_rate - self.load_share_ratio * sling_rate) / length_m
-        sling = per_m * (sling_rate - hook_rate) / self.sling_length_m
+        hook = self._pull_m_s2 * (hook_rate - self.load_share_ratio * sling_rate) / length_m
+        sling = self._pull_m_s2 * (sling_rate - hook_rate) / self.sling_length_m
         return factor * (hook + root * hook_rate), factor * (sling + root * sling_rate)

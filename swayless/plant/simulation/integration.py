@@ -65,7 +65,7 @@ def steps_per_tick(tick_s: float, vibration_rad_s: float, decay_per_s: float = 0
 
 def integrate(
     equations: Equations,
-    start: State,
+    start: Sequence[float],
     ticks: Tick,
     tick_s: float,
     steps: int,
@@ -79,7 +79,7 @@ def integrate(
     ----------
     equations : Equations
         The plant.
-    start : State
+    start : sequence of float
         Before the first tick; finite numbers, the same for all cases.
     ticks : named tuple of ndarray, each of shape (ticks,) or (cases, ticks)
         The inputs.
