@@ -5,6 +5,7 @@ from swayless.report.plotted import PlottedCommand, PlottedShaper
 from swayless.report.response import response_figure
 from swayless.report.save import FigureFormat, figure_bytes, save_figure
 from swayless.report.sensitivity import sensitivity_figure
+from swayless.report.tradeoff import tradeoff_figure
 
 __all__ = [
     "FigureFormat",
@@ -15,4 +16,5 @@ __all__ = [
     "response_figure",
     "save_figure",
     "sensitivity_figure",
+    "tradeoff_figure",
 ]

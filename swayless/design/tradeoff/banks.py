@@ -17,7 +17,7 @@ from swayless.errors import DesignError
 STEPS = 48
 """Equal steps of the logarithm of the frequency between which rows may switch."""
 
-_ON_TIME = 1e-9  # relative: a row this little longer than allowed is as long, by rounding
+_ON_TIME = 1e-9  # relative: what differs this little is the same, by rounding
 
 
 def range_steps(ratio: float) -> FloatArray:
@@ -25,7 +25,7 @@ def range_steps(ratio: float) -> FloatArray:
     return np.geomspace(1.0, ratio, STEPS + 1)
 
 
-def shortest_split(number: int, front: Frontier) -> FloatArray:
+def shortest_split(number: int, steps: FloatArray, front: Frontier) -> FloatArray:
     """Split a range among a number of rows so that the longest row is as short as the steps allow.
 
     A row that starts at k times the lowest frequency lasts 1 / k times as long as one of the same ratio that
@@ -35,9 +35,11 @@ def shortest_split(number: int, front: Frontier) -> FloatArray:
     Parameters
     ----------
     number : int
-        Number of rows, 1 to `STEPS`.
+        Number of rows.
+    steps : ndarray, shape (n,)
+        Where rows may begin and end, over the lowest frequency: a geometric progression from 1.
     front : Frontier
-        Of the ratios of `range_steps` but the first.
+        Of these ratios, the first left out; one that is missing is served by the next.
 
     Returns
     -------
@@ -52,11 +54,13 @@ def shortest_split(number: int, front: Frontier) -> FloatArray:
     Examples
     --------
     >>> from swayless.design.tradeoff.frontier import frontier
-    >>> shortest_split(2, frontier(0.5, range_steps(2.0)[1:])).round(2)
+    >>> steps = range_steps(2.0)
+    >>> shortest_split(2, steps, frontier(0.5, steps[1:])).round(2)
     array([1.  , 1.19, 2.  ])
     """
-    relative = np.maximum.accumulate(front.durations_s * front.low_hz)  # level over stretches, to rounding
-    starts = np.append(1.0, front.ratios[:-1])
+    serves = np.searchsorted(front.ratios, steps[1:] * (1.0 - _ON_TIME))
+    durations = front.durations_s[serves] * front.low_hz
+    relative, starts = np.maximum.accumulate(durations), steps[:-1]  # level over stretches, to rounding
     possible: list[float] = np.unique(np.divide.outer(relative, starts)).tolist()
     least = bisect_left(
         range(len(possible) - 1),
@@ -66,7 +70,7 @@ def shortest_split(number: int, front: Frontier) -> FloatArray:
     chosen = _row_starts(possible[least], relative, starts)
     if chosen.size < number:
         raise DesignError(f"{number} rows: {chosen.size} are over as soon")
-    return np.append(starts[chosen], front.ratios[-1])
+    return np.append(starts[chosen], steps[-1])
 
 
 def _row_starts(longest: float, relative: FloatArray, starts: FloatArray) -> NDArray[np.intp]:

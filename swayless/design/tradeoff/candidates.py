@@ -170,7 +170,7 @@ def robust_candidate(amplitudes: Amplitudes, need: Need) -> Candidate:
 
 def bank_candidate(number: int, need: Need, front: Callable[[], Frontier]) -> Candidate:
     """Split the range among rows, each the shortest for its part, and measure them."""
-    ends_hz = need.band.low_hz * shortest_split(number, front())
+    ends_hz = need.band.low_hz * shortest_split(number, range_steps(need.ratio), front())
     ends_hz[-1] = need.band.high_hz  # to the last bit
     kind = front().amplitudes
     rows = [_shortest(Band(low, high), need, kind) for low, high in pairwise(ends_hz.tolist())]

@@ -6,7 +6,9 @@ Not for: one band (`swayless.design.robust`).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -73,10 +75,15 @@ def frontier(
     tolerance, damping_ratio, amplitudes
         As for `specified_insensitivity`.
 
+    Returns
+    -------
+    Frontier
+        Without the widths at which no optimum is found, if there are such: the next wider shaper holds them.
+
     Raises
     ------
     DesignError
-        If a value is out of range.
+        If a value is out of range, or the widest band has no shaper.
 
     Examples
     --------
@@ -88,13 +95,12 @@ def frontier(
     widths = np.asarray(ratios, dtype=np.float64)
     if widths.ndim != 1 or widths.size == 0 or widths[0] < 1.0 or np.any(np.diff(widths) <= 0.0):
         raise DesignError(f"ratios = {widths.tolist()}: must start at 1 or above and rise")
-    designs = tuple(
-        specified_insensitivity(
-            Band(low_hz, low_hz * ratio),
-            tolerance=tolerance,
-            damping_ratio=damping_ratio,
-            amplitudes=amplitudes,
-        )
-        for ratio in widths.tolist()
+    design = partial(
+        specified_insensitivity, tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes
     )
-    return Frontier(amplitudes, low_hz, widths, designs)
+    designs = {float(widths[-1]): design(Band(low_hz, low_hz * widths[-1]))}
+    for ratio in widths[-2::-1].tolist():
+        with suppress(DesignError):
+            designs[ratio] = design(Band(low_hz, low_hz * ratio))
+    found = sorted(designs)
+    return Frontier(amplitudes, low_hz, np.array(found), tuple(designs[ratio] for ratio in found))

@@ -63,6 +63,24 @@ def placed_shaper(family: str, need: Need) -> Shaper:
     return design_shaper(family, Mode(frequency_hz, need.damping_ratio), tolerance=need.tolerance)
 
 
+def anchored_shaper(family: str, need: Need) -> Shaper:
+    """Design a family for the mode whose band starts at the lowest frequency of a range.
+
+    Raises
+    ------
+    DesignError
+        If the family does not exist at this tolerance and damping.
+
+    Examples
+    --------
+    >>> round(anchored_shaper("ei3", Need(Band(0.2, 0.4))).guarantee.band.low_hz, 9)
+    0.2
+    """
+    unit = relative_band(family, tolerance=need.tolerance, damping_ratio=need.damping_ratio)
+    mode = Mode(need.band.low_hz / unit.low_hz, need.damping_ratio)
+    return design_shaper(family, mode, tolerance=need.tolerance)
+
+
 def positions_needed(held: Band, ratio: float) -> int:
     """Count the knob positions of one family that cover a range of frequencies.
 

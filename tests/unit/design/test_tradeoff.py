@@ -141,7 +141,10 @@ def test_without_ramps_a_jog_leaves_two_steps_at_most() -> None:
         (lambda: Need(Band(1.0, 2.0), longest_overtravel_m=0.0), r"longest_overtravel_m = 0.0: must be"),
         (lambda: frontier(1.0, [0.9]), r"ratios = \[0.9\]: must start at 1 or above and rise"),
         (lambda: frontier(1.0, [1.2, 1.2]), r"must start at 1 or above and rise"),
-        (lambda: shortest_split(2, frontier(1.0, [1.01])), r"2 rows: 1 are over as soon"),
+        (
+            lambda: shortest_split(2, np.array([1.0, 1.01]), frontier(1.0, [1.01])),
+            r"2 rows: 1 are over as soon",
+        ),
     ],
 )
 def test_refusals_say_what_is_allowed(call: object, message: str) -> None:
@@ -229,10 +232,22 @@ def test_no_other_split_on_the_same_steps_has_a_shorter_longest_row(number: int)
         )
 
     best_s = min(longest_s(list(ends)) for ends in combinations(range(1, 8), number - 1))
-    chosen = np.searchsorted(ratios, shortest_split(number, front) * (1.0 - 1e-12)).tolist()
+    chosen = np.searchsorted(ratios, shortest_split(number, ratios, front) * (1.0 - 1e-12)).tolist()
     assert chosen[0] == 0
     assert chosen[-1] == 8
     assert longest_s(chosen[1:-1]) == pytest.approx(best_s, rel=1e-8)  # equal durations, to their rounding
+
+
+def test_a_width_without_a_shaper_is_served_by_the_next_wider_one() -> None:
+    ratios = np.geomspace(1.0, 2.2, 9)
+    whole = frontier(0.25, ratios[1:], amplitudes="bounded")
+    kept = [0, 1, 2, 4, 5, 6, 7]
+    holed = replace(whole, ratios=whole.ratios[kept], designs=tuple(whole.designs[index] for index in kept))
+    as_wider = replace(whole, designs=(*whole.designs[:3], whole.designs[4], *whole.designs[4:]))
+    for number in (1, 2, 3):
+        np.testing.assert_array_equal(
+            shortest_split(number, ratios, holed), shortest_split(number, ratios, as_wider)
+        )
 
 
 # Candidates and their order
