@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import inspect
 import os
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from swayless import __version__
 from swayless.cli.build import build
-from swayless.cli.design import design
+from swayless.cli.design import design_app
 from swayless.cli.generate import generate
+from swayless.cli.help_text import help_text
 from swayless.cli.init import init
 from swayless.cli.options import OptionError
 from swayless.cli.plot import plot
@@ -25,20 +25,19 @@ from swayless.errors import FileError, SwaylessError, ToolMissingError, Verifica
 EXIT_DIFFERS, EXIT_BAD, EXIT_TOOL_MISSING = 1, 2, 3
 
 
-def help_text(command: Callable[..., None]) -> str:
-    r"""Give the help of a command: its docstring, in which typer must not fill the lines of the examples.
+class Menu(TyperGroup):
+    """The commands in the order of a user's work; groups would come last otherwise."""
 
-    Examples
-    --------
-    >>> help_text(build).splitlines()[-4:]
-    ['\x08', 'Examples:', '  swayless build crane.toml', '  swayless build crane.toml -o out/crane --check']
-    """
-    text, _, examples = (inspect.getdoc(command) or "").partition("\n\nExamples\n--------\n")
-    return "\n".join([text, "", "\b", "Examples:", *(f"  {line}" for line in examples.splitlines())])
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Give the names of all commands."""
+        return sorted(super().list_commands(ctx), key=_ORDER.index)
 
+
+_ORDER = ("init", "design", "plot", "generate", "verify", "build")
 
 app = typer.Typer(
     name="swayless",
+    cls=Menu,
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -66,8 +65,9 @@ def _swayless(
 
 
 app.callback(invoke_without_command=True, help=help_text(_swayless))(_swayless)
-for _command in (init, design, plot, generate, verify, build):
+for _command in (init, plot, generate, verify, build):
     app.command(help=help_text(_command))(_command)
+app.add_typer(design_app, name="design")
 
 
 def main() -> None:

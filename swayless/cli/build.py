@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
-from swayless.cli.options import CheckOption, CompilerOption, JsonOption, SoakOption
+from swayless.cli.options import CheckOption, CompilerOption, JsonOption, MachineArgument, SoakOption
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from swayless.machine import DesignFile, Machine
     from swayless.verify import Verdict
 
-MachineArgument = Annotated[
-    Path, typer.Argument(metavar="MACHINE.toml", help="A machine file.", show_default=False)
-]
 DirectoryOption = Annotated[
     Path | None,
     typer.Option(

@@ -11,7 +11,7 @@ import sys
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from typing import Any
 
 import typer
@@ -20,6 +20,8 @@ from swayless.errors import VerificationError
 
 PIPE_WIDTH = 10_000
 """Columns of a table that does not go to a terminal: room for any line, so that none is folded."""
+
+SMALLEST_PER_CENT = Decimal("0.0001")
 
 INDENT = "  "
 """In front of each line of a table."""
@@ -92,15 +94,38 @@ def interval(low: float, high: float, digits: int = 4) -> str:
     return f"{up.create_decimal(repr(low))} to {down.create_decimal(repr(high))}"
 
 
-def per_cent(ratio: float) -> str:
+def per_cent(ratio: float, digits: int = 6) -> str:
     """Print a ratio in per cent.
 
     Examples
     --------
-    >>> per_cent(0.05)
-    '5 %'
+    >>> per_cent(0.05), per_cent(0.38712, 3)
+    ('5 %', '38.7 %')
     """
-    return f"{100 * ratio:.6g} %"
+    return f"{100 * ratio:.{digits}g} %"
+
+
+def at_most(ratio: float, digits: int = 2) -> str:
+    """Print a ratio in per cent, rounded up, and to no less than 0.0001 %.
+
+    Examples
+    --------
+    >>> at_most(3.1e-9), at_most(0.0012345), at_most(0.0538212, 4)
+    ('0.0001 %', '0.13 %', '5.383 %')
+    """
+    ratio_per_cent = Context(digits, ROUND_CEILING).multiply(Decimal(repr(ratio)), 100)
+    return f"{max(ratio_per_cent.normalize(), SMALLEST_PER_CENT):f} %"
+
+
+def rounded_down(value: float, digits: int = 6) -> str:
+    """Print a lower bound: what is printed is never more than what is proved.
+
+    Examples
+    --------
+    >>> rounded_down(2.71333019)
+    '2.71333'
+    """
+    return f"{Context(digits, ROUND_FLOOR).create_decimal(repr(value)):f}"
 
 
 def counted(number: int, noun: str) -> str:

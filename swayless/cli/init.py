@@ -17,6 +17,8 @@ class Example(StrEnum):
     srtc_gantry = "srtc-gantry"
     workshop_crane = "workshop-crane"
     flexible_arm = "flexible-arm"
+    srtc_gantry_bank = "srtc-gantry-bank"
+    double_pendulum = "double-pendulum"
 
 
 def init(
@@ -25,7 +27,8 @@ def init(
         typer.Argument(metavar="FILE", help="File to write; EXAMPLE.toml unless given.", show_default=False),
     ] = None,
     example: Annotated[
-        Example, typer.Option("--example", help="Which machine to start from.")
+        Example,
+        typer.Option("--example", metavar="NAME", help=f"Which machine to start from: {', '.join(Example)}."),
     ] = Example.srtc_gantry,
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     json: JsonOption = False,
@@ -33,7 +36,8 @@ def init(
     """Write a commented machine file to start from.
 
     The examples: a 15-ton gantry crane (double, for C and Structured Text), a workshop crane with a joystick
-    (float), and a flexible arm (int32, for C only).
+    (float), a flexible arm (int32, for C only), the gantry crane with a bank that covers all its ropes, and a
+    crane whose load hangs on a sling below the hook.
 
     Examples
     --------

@@ -73,3 +73,7 @@ SoakOption = Annotated[
 DesignArgument = Annotated[
     Path, typer.Argument(metavar="FILE.json", help="A design file.", show_default=False)
 ]
+
+MachineArgument = Annotated[
+    Path, typer.Argument(metavar="MACHINE.toml", help="A machine file.", show_default=False)
+]

@@ -8,7 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from swayless.cli.bank_summary import switching
 from swayless.cli.console import interval, per_cent, print_line, print_table
+from swayless.cli.design_summary import bands, damping_ratios, proofs
 
 if TYPE_CHECKING:
     from swayless.controller import ShaperOutput, ShaperSettings
@@ -81,7 +83,7 @@ def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
         Its block.
     """
     held = "rope [m]" if _on_rope(design) else "range [Hz]"
-    columns = ("knob", "row", "family", "leaves", held, "time [s]", "stop [m]", "quick [m]")
+    columns = ["knob", "row", "family", "leaves", held, "time [s]", "stop [m]", "quick [m]"]
     unshaped = ways(settings, 0)
     rows = [["0", "unshaped", "-", "-", "-", "0", f"{unshaped.released_m:.3f}", f"{unshaped.quick_m:.3f}"]]
     for knob, shaper in enumerate(design.shapers, start=1):
@@ -91,8 +93,23 @@ def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
         rows.append([*row, f"{way.released_m:.3f}", f"{way.quick_m:.3f}"])
     print_table(f"{design.name}: what each position of the knob guarantees", columns, rows)
     print_line(STOPS_NOTE)
-    for line in _remarks(design, settings):
+    for line in (*_robust_remarks(design), *_remarks(design, settings)):
         print_line(line)
+
+
+def _robust_remarks(design: DesignFile) -> Iterator[str]:
+    """Say what rows hold beside what stands in the table, what is proved of them, and where to switch."""
+    for knob, shaper in enumerate(design.shapers, start=1):
+        held = _taps(shaper).guarantee
+        if held.further_frequency_hz:
+            yield f"row {knob}, all modes: {bands(held, digits=4)}"
+        if held.damping_ratio[0] < held.damping_ratio[1]:
+            yield f"row {knob} holds at damping ratios of {damping_ratios(held)}"
+        for line in proofs(shaper):
+            yield f"row {knob}, {line}"
+    if design.bank is not None:
+        yield from switching(design.bank)
+        yield f"on the pendant: {'   '.join(design.bank.labels)}"
 
 
 def _remarks(design: DesignFile, settings: ShaperSettings) -> Iterator[str]:
@@ -116,7 +133,7 @@ def _remarks(design: DesignFile, settings: ShaperSettings) -> Iterator[str]:
 
 
 def _on_rope(design: DesignFile) -> bool:
-    return design.plant.kind == "crane"
+    return design.plant.kind in {"crane", "double_pendulum"}
 
 
 def _held(design: DesignFile, taps: TapsRecord) -> tuple[float, float]:
@@ -151,27 +168,40 @@ def summary_document(design: DesignFile, settings: ShaperSettings) -> dict[str, 
     settings : ShaperSettings
         Its block.
     """
-    nothing = dict.fromkeys(("family", "tolerance", "frequency_hz", "rope_length_m"))
-    rows = [{"knob": 0, "name": "unshaped", **nothing, "duration_s": 0.0, **_ways_document(settings, 0)}]
-    for knob, shaper in enumerate(design.shapers, start=1):
-        taps = _taps(shaper)
-        rows.append(
-            {
-                "knob": knob,
-                "name": shaper.name,
-                "family": shaper.family,
-                "tolerance": taps.guarantee.tolerance,
-                "frequency_hz": list(taps.guarantee.frequency_hz),
-                "rope_length_m": list(taps.guarantee.rope_length_m) if _on_rope(design) else None,
-                "duration_s": taps.duration_s,
-                **_ways_document(settings, knob),
-            }
-        )
+    from swayless.machine.record import document_of
+
+    shaped = [
+        {"knob": knob, "name": shaper.name, **_row_document(design, shaper), **_ways_document(settings, knob)}
+        for knob, shaper in enumerate(design.shapers, start=1)
+    ]
+    nothing = dict.fromkeys(_row_document(design, design.shapers[0]))
+    unshaped = {"knob": 0, "name": "unshaped"} | nothing | {"duration_s": 0.0} | _ways_document(settings, 0)
     ranged = design.plant.frequency_hz[0] < design.plant.frequency_hz[1]
     not_held = {
         "not_held_rope_length_m" if _on_rope(design) else "not_held_hz": _gaps(design) if ranged else []
     }
-    return {"name": design.name, "number": settings.number.name, "rows": rows, **not_held}
+    bank = {"bank": None if design.bank is None else document_of(design.bank)}
+    rows = {"rows": [unshaped, *shaped]}
+    return {"name": design.name, "number": settings.number.name, **rows, **not_held, **bank}
+
+
+def _row_document(design: DesignFile, shaper: ShaperRecord) -> dict[str, Any]:
+    """Give what the taps of a row hold, and what is proved."""
+    taps, bound_s = _taps(shaper), shaper.lower_bound_s
+    held = taps.guarantee
+    return {
+        "family": shaper.family,
+        "amplitude_rule": shaper.amplitude_rule,
+        "tolerance": held.tolerance,
+        "worst_residual_ratio": held.worst_residual_ratio,
+        "frequency_hz": list(held.frequency_hz),
+        "further_frequency_hz": [list(band) for band in held.further_frequency_hz],
+        "damping_ratio": list(held.damping_ratio),
+        "rope_length_m": list(held.rope_length_m) if _on_rope(design) else None,
+        "duration_s": taps.duration_s,
+        "lower_bound_s": bound_s,
+        "gap_ratio": None if bound_s is None else shaper.duration_s / bound_s - 1.0,
+    }
 
 
 def _ways_document(settings: ShaperSettings, row: int) -> dict[str, float]:

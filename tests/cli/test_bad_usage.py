@@ -12,6 +12,12 @@ DESIGN = [
     ("design zv", "--frequency, --period, --rope-length: exactly one of them is needed, none is given"),
     ("design zv --frequency 1 --period 1", "needed, --frequency and --period are given"),
     ("design zvv --frequency 1", 'FAMILY = "zvv": unknown family; nearest: zv,'),
+    ("design bnk crane.toml", "unexpected extra argument"),
+    ("design bnk", 'FAMILY = "bnk": unknown family; nearest: bank; known: zv,'),
+    ("design FAMILY --frequency 1", 'FAMILY = "FAMILY": unknown family; known: zv,'),
+    ("design --frequency 1", "Missing argument 'FAMILY'"),
+    ("design --tick 1 si", 'FAMILY = "si": is a command of its own, and stands first: swayless design si'),
+    ("design zv --frequency 1 --contactor", "a contactor drive gives 0 or full speed: allowed are um-zv"),
     ("design zv --frequency -1", "--frequency = -1: must be > 0"),
     ("design zv --frequency 0", "--frequency = 0: must be > 0"),
     ("design zv --frequency nan", "--frequency = nan: is not a finite number"),
@@ -52,6 +58,55 @@ DESIGN = [
     ("design zv --frequency 1 -o folder", "folder: cannot be written: it is a directory"),
     ("design zv --frequency 1 -o no/a.json", "no/a.json: cannot be written: there is no folder no"),
     ("design zv --frequency 1 -o empty.json/a.json", "cannot be written"),
+]
+ROBUST = [
+    ("design si", "--band, --rope-length: exactly one of them is needed, none is given"),
+    ("design si --band 1 2 --rope-length 1 2", "is needed, --band and --rope-length are given"),
+    ("design si --band", "--band"),
+    ("design si --band 1", "--band = 1: must be an array of two values, the ends of a range"),
+    ("design si --band 1 2 3", "--band = [1, 2, 3]: must be an array of two values"),
+    ("design si --band 1 1", "--band = [1, 1]: must be two different values, the ends of a range"),
+    ("design si --band 0 1", "--band[0] = 0: must be > 0"),
+    ("design si --band -1 2", "--band[0] = -1: must be > 0"),
+    ("design si --band 1 -2", "--band[1] = -2: must be > 0"),
+    ("design si --band 1 nan", "--band[1] = nan: is not a finite number"),
+    ("design si --band 1 1e300", "--band[1] = 1e+300: must be at least 0.001 and at most 10000 Hz"),
+    ("design si --band 1 2kg", '--band[1] = "2kg": is not a frequency: allowed units are Hz'),
+    ("design si --band 1 2 --band 3 x", '--band[1][1] = "x": is not a frequency'),
+    ("design si --band 0.1 9", "the ratio 90 must be at most 8"),
+    ("design si --rope-length 9ft 9000kg", '--rope-length[1] = "9000kg": is not a length'),
+    ("design si --rope-length 0 2", "--rope-length[0] = 0: must be > 0"),
+    ("design si --band 1 2 --damping 0.3", "--damping = 0.3: must be at least 0 and at most 0.2"),
+    ("design si --band 1 2 --damping 0 2", "--damping[1] = 2: must be at least 0 and at most 0.2"),
+    ("design si --band 1 2 --damping 0 1 2", "--damping = [0, 1, 2]: must be one value or an array of two"),
+    ("design si --band 1 2 --tolerance 0.5", "--tolerance = 0.5: must be at least 0.01 and at most 0.2"),
+    ("design si --band 1 2 --tolerance 5", "--tolerance = 5: must be at least 0.01 and at most 0.2"),
+    ("design si --band 1 2 --amplitudes negative", "--amplitudes"),
+    ("design si --band 1 2 --impulses 5", '--impulses = 5: only with amplitudes = "unity-magnitude"'),
+    (
+        "design si --band 1 2 --amplitudes unity-magnitude --impulses 4",
+        "--impulses = 4: must be odd: +1, -1, ..., +1",
+    ),
+    (
+        "design si --band 1 2 --amplitudes positive --contactor",
+        '--amplitudes = "positive": a contactor drive gives 0 or full speed: must be "unity-magnitude"',
+    ),
+    ("design si --band 1 2 --contactor --acceleration 1", "--acceleration = 1: a contactor drive gives 0 or"),
+    ("design si --band 1 2 --order 2", "--order"),
+    ("design si 1 2", "unexpected extra argument"),
+    ("design si --band 1 2 -o no/a.json", "no/a.json: cannot be written: there is no folder no"),
+    ("design fd", "--duration"),
+    ("design fd --duration 3", "--from"),
+    (
+        "design fd --duration 3 --from 29",
+        '--from = "29": needs a unit: m, cm, mm, in, ft for the longest rope, Hz, mHz, kHz, rpm for the',
+    ),
+    ("design fd --duration 3 --from 29kg", '--from = "29kg": needs a unit'),
+    ("design fd --duration 3 --from ft", '--from = "ft": is not a length'),
+    ("design fd --duration 3 --from -29ft", '--from = "-29ft": must be > 0'),
+    ("design fd --duration 0 --from 29ft", "--duration = 0: must be > 0"),
+    ("design fd --duration 1 --from 29ft", "duration_s = 1.0: too short"),
+    ("design fd --duration 3 --from 29ft --damping 0 0.05", "unexpected extra argument"),
 ]
 FILES = [
     ("init arm.toml", "arm.toml: is there already; choose another name, or replace it with --force"),
@@ -151,7 +206,7 @@ def workplace(arm, designs, tmp_path):
     return tmp_path
 
 
-CASES = [*DESIGN, *FILES, *PLOT]
+CASES = [*DESIGN, *ROBUST, *FILES, *PLOT]
 
 
 @pytest.mark.parametrize(("line", "message"), CASES, ids=[line for line, _ in CASES])

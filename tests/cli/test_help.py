@@ -2,24 +2,34 @@
 
 from __future__ import annotations
 
-import inspect
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 import typer
 
 import swayless
 from swayless.cli.app import app
+from swayless.cli.design_options import COMMANDS as DESIGN_COMMANDS
 
 COMMANDS = ["init", "design", "plot", "generate", "verify", "build"]
+OF_DESIGN = ["FAMILY", *DESIGN_COMMANDS]
+ALL = [*COMMANDS, *(f"design {name}" for name in OF_DESIGN)]
 ROOT = Path(__file__).parents[2]
 
 
-def examples(command: str) -> list[str]:
-    """Example lines of the command's docstring."""
-    (found,) = [info.callback for info in app.registered_commands if info.callback.__name__ == command]
-    return inspect.getdoc(found).partition("Examples\n--------\n")[2].splitlines()
+def found(line: str) -> Any:
+    """Give the command that a command line names."""
+    command = typer.main.get_command(app)
+    for name in line.split():
+        command = command.commands[name]
+    return command
+
+
+def examples(help_text: str) -> list[str]:
+    """Example lines of a command's help."""
+    return [line.strip() for line in help_text.partition("Examples:\n")[2].splitlines()]
 
 
 def test_no_argument_prints_the_help_and_is_no_error(run):
@@ -30,27 +40,44 @@ def test_no_argument_prints_the_help_and_is_no_error(run):
         assert f"\n  {command} " in alone.out
 
 
-def test_the_list_of_commands_cuts_no_sentence(run):
-    assert "..." not in run().out.partition("Commands:")[2]
+def test_design_lists_its_commands_and_is_an_error_alone(run):
+    asked = run("design", "--help")
+    assert (asked.code, asked.err) == (0, "")
+    assert [line.split()[0] for line in asked.out.partition("Commands:\n")[2].splitlines()] == OF_DESIGN
+    alone = run("design")
+    assert (alone.code, alone.out) == (2, "")
+    assert "swayless design FAMILY|COMMAND [OPTIONS]\n" in alone.err
+
+
+@pytest.mark.parametrize("group", [(), ("design",)])
+def test_the_list_of_commands_cuts_no_sentence(run, group):
+    assert "..." not in run(*group, "--help").out.partition("Commands:")[2]
+
+
+@pytest.mark.parametrize("line", ["FAMILY --help", "zv --help", "zv --frequency 1 -h"])
+def test_the_help_of_the_families_is_that_of_one_command(run, line):
+    out = run("design", *line.split()).out
+    assert "swayless design FAMILY [OPTIONS]\n" in out.partition("\n\n")[0] + "\n"
+    assert "--rope-length M " in out
 
 
 @pytest.mark.parametrize("columns", [80, 110])
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", ALL)
 def test_help_fits_the_terminal_and_keeps_example_lines_whole(run, monkeypatch, command, columns):
     monkeypatch.setenv("COLUMNS", str(columns))
-    done = run(command, "--help")
+    done = run(*command.split(), "--help")
     assert (done.code, done.err) == (0, "")
     lines = done.out.splitlines()
     assert max(map(len, lines)) <= columns
-    assert examples(command)
-    for example in examples(command):
+    wanted = examples(found(command).help)
+    assert wanted
+    for example in wanted:
         assert example in [line.strip() for line in lines]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", ALL)
 def test_every_option_has_a_help_text(command):
-    parameters = typer.main.get_command(app).commands[command].params
-    assert all(parameter.help for parameter in parameters if parameter.name != "help")
+    assert all(parameter.help for parameter in found(command).params if parameter.name != "help")
 
 
 def test_the_version_is_that_of_the_package(run):
