@@ -30,6 +30,7 @@ class Kind(StrEnum):
     sensitivity = "sensitivity"
     response = "response"
     bank = "bank"
+    tradeoff = "tradeoff"
 
 
 class Over(StrEnum):
@@ -51,13 +52,18 @@ KindArgument = Annotated[
     typer.Argument(
         metavar="KIND",
         help="sensitivity: what designs leave over frequency or rope length, and the range each one holds; "
-        "response: command, reference and swing of one press at full speed; bank: all rows of a machine.",
+        "response: command, reference and swing of one press at full speed; bank: all rows of a machine; "
+        "tradeoff: what robustness costs on a machine, with the proven limit.",
         show_default=False,
     ),
 ]
 FilesArgument = Annotated[
     list[Path],
-    typer.Argument(metavar="FILE.json", help="Design file; several for sensitivity.", show_default=False),
+    typer.Argument(
+        metavar="FILE.json",
+        help="Design file; several for sensitivity; for tradeoff a machine file instead.",
+        show_default=False,
+    ),
 ]
 FigureOption = Annotated[
     Path, typer.Option("-o", "--output", metavar="FIG", help="Figure to write: .svg, .png or .pdf.")
@@ -92,7 +98,7 @@ def plot(
     row: RowOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Draw sensitivity, a response, or a whole bank.
+    """Draw sensitivity, a response, a whole bank, or what robustness costs.
 
     Taps are drawn where a design has them, since they are what runs.
 
@@ -102,18 +108,24 @@ def plot(
     swayless plot sensitivity crane.json --over rope-length --span 3 9 -o r.png
     swayless plot response crane.json --press "4 s" --row 2 -o response.pdf
     swayless plot bank crane.json -o bank.svg
+    swayless plot tradeoff crane.toml -o tradeoff.svg
     """
     from swayless.cli.console import print_json
     from swayless.report import save_figure
+    from swayless.report.save import check_place
 
+    check_place(output)
     _refuse_strangers(
         kind, {"over": over, "span": span, "definition": definition}, {"press": press, "row": row}
     )
-    designs = _loaded(files)
-    if kind is Kind.sensitivity:
-        figure = _sensitivity(designs, over or Over.frequency, span, definition or Definition.kriikku)
+    if kind is Kind.tradeoff:
+        from swayless.cli.tradeoff import tradeoff
+
+        figure = tradeoff(_only(kind, files))
+    elif kind is Kind.sensitivity:
+        figure = _sensitivity(_loaded(files), over or Over.frequency, span, definition or Definition.kriikku)
     else:
-        figure = _single(kind, designs, row, press)
+        figure = _single(kind, _loaded([_only(kind, files)])[0], row, press)
     save_figure(figure, output)
     if json:
         print_json({"figure": str(output), "kind": kind.value, "designs": [str(file) for file in files]})
@@ -179,13 +191,20 @@ def _sensitivity(
     return sensitivity_figure(shapers, over="rope_length", span=limits, definition=definition.value)
 
 
-def _single(kind: Kind, designs: list[DesignFile], row: str | None, press: str | None) -> Figure:
+def _only(kind: Kind, files: list[Path]) -> Path:
+    """Take the one file of a figure that draws one."""
+    from swayless.cli.option_table import refuse
+
+    if len(files) != 1:
+        what = "machine" if kind is Kind.tradeoff else "design"
+        refuse([f"FILE.json: plot {kind.value} draws one {what}, {len(files)} are given"])
+    return files[0]
+
+
+def _single(kind: Kind, design: DesignFile, row: str | None, press: str | None) -> Figure:
     from swayless.cli.option_table import option_table, refuse
     from swayless.machine.checks import integer, quantity
 
-    if len(designs) != 1:
-        refuse([f"FILE.json: plot {kind.value} draws one design, {len(designs)} are given"])
-    design = designs[0]
     if kind is Kind.bank:
         return bank(design)
     problems: list[str] = []

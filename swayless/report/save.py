@@ -53,6 +53,21 @@ def figure_bytes(figure: Figure, file_format: FigureFormat) -> bytes:
     return stream.getvalue()
 
 
+def check_place(path: Path) -> None:
+    """Refuse a place in which no figure can be written, before it is drawn.
+
+    Raises
+    ------
+    FileError
+        If the suffix is no figure's, or the folder is missing.
+    """
+    if path.suffix.lower() not in _FORMATS:
+        allowed = ", ".join(_FORMATS)
+        raise FileError([f"{path}: suffix {path.suffix!r} is no figure format: must be one of {allowed}"])
+    if not path.parent.exists():
+        raise FileError([f"{path}: cannot be written: there is no folder {path.parent}"])
+
+
 def save_figure(figure: Figure, path: str | Path) -> None:
     """Write a figure; the suffix of the path chooses the format. The file appears whole or not at all.
 
@@ -69,9 +84,7 @@ def save_figure(figure: Figure, path: str | Path) -> None:
         If the suffix is another one, or the file cannot be written.
     """
     path = Path(path)
-    if path.suffix.lower() not in _FORMATS:
-        allowed = ", ".join(_FORMATS)
-        raise FileError([f"{path}: suffix {path.suffix!r} is no figure format: must be one of {allowed}"])
+    check_place(path)
     content = figure_bytes(figure, _FORMATS[path.suffix.lower()])
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")  # beside it, so that the rename is one step
     try:

@@ -109,7 +109,9 @@ def test_other_suffixes_are_refused_with_those_that_are_allowed(
 
 
 def test_a_missing_directory_is_a_file_error(ei: PlottedShaper, tmp_path: Path) -> None:
-    with pytest.raises(FileError, match=r"nowhere.figure\.svg: cannot be written: No such file or directory"):
+    with pytest.raises(
+        FileError, match=r"nowhere.figure\.svg: cannot be written: there is no folder .*nowhere"
+    ):
         save_figure(sensitivity_figure([ei]), tmp_path / "nowhere" / "figure.svg")
 
 
