@@ -216,10 +216,12 @@ def drawn_from(shapers: Sequence[Shaper]) -> str:
 
 
 def shortened(svg: str) -> str:
-    """Round the paths of a figure to a hundredth of a point, which nobody sees."""
-    return re.sub(
-        r' d="[^"]*"', lambda path: re.sub(r"\d+\.\d{3,}", lambda x: f"{float(x[0]):.2f}", path[0]), svg
-    )
+    """Write each path of a figure on one line, rounded to a hundredth of a point, which nobody sees."""
+
+    def rounded(path: re.Match[str]) -> str:
+        return re.sub(r"\d+\.\d{3,}", lambda number: f"{float(number[0]):.2f}", path[0].replace("\n", ""))
+
+    return re.sub(r' d="[^"]*"', rounded, svg)
 
 
 def main() -> None:
