@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from swayless.design.robust.chain import Chain, Walk, next_start, same
+from swayless.design.robust.chain import Chain, Walk, is_too_long, next_start, same
 from swayless.design.robust.crossing import crossing
 from swayless.design.robust.demand import TOLERANCES, WIDEST_RATIO
 from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
@@ -31,7 +31,7 @@ _STEEPNESS = 0.5  # a usual d log(duration) / d log(tolerance), of the first ste
 _UNBALANCED = 1e-6  # relative: rows on ticks are balanced until they leave the same to this
 _BALANCING_ROUNDS = 3
 _JUMPED = 1e-5  # of the log of the last row's duration: a shorter one shows a jump, which nothing balances
-_SUGGESTION = 1e-3  # relative, of a duration in a message
+_SUGGESTION = 1e-2  # relative, of a duration in a message
 _LONGEST = 20.0  # times a duration that is too short: how far a message looks for one that is not
 
 
@@ -224,6 +224,12 @@ def _least_rest(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s
     if not _fits(rows, rest, tolerance, duration_s):
         return None
     if _fits(rows, rest, TOLERANCES[0], duration_s):
+        if is_too_long(rows.ideal, rest.low_hz, TOLERANCES[0], duration_s):
+            raise DesignError(
+                f"duration_s = {duration_s:g}: a row from {rest.low_hz:g} Hz holds {WIDEST_RATIO:g} times "
+                f"that at {TOLERANCES[0]:g} in less; a shorter duration does, or a longest one instead of a "
+                "fixed one"
+            )
         row = rows.widest(duration_s, rest.low_hz, TOLERANCES[0])
         if rows.promise_of(row).band.high_hz >= rest.high_hz:
             return row

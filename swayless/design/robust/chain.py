@@ -40,6 +40,12 @@ def next_start(next_start_hz: Callable[[float], float], start_hz: float, end_hz:
     return following_hz
 
 
+def is_too_long(rows: ContinuousRows, start_hz: float, tolerance: float, duration_s: float) -> bool:
+    """Whether a duration does for the widest band from a start: then a row fails by having no end."""
+    rule = RULES[rows.amplitudes]
+    return worst_at_ends(duration_s * start_hz, rows.damping_ratio, tolerance, rule)[1] <= tolerance
+
+
 class Walk(NamedTuple):
     """Rows one after the other, the last one over all that is left.
 
@@ -84,20 +90,15 @@ class Chain:
             try:
                 design = self.rows.widest(duration_s, start_hz, tolerance)
                 end_hz = design.shaper.guarantee.band.high_hz
-                following_hz = next_start(self.next_start_hz, start_hz, end_hz)
+                if end_hz >= self.high_hz:
+                    return Walk(designs, -math.inf)
+                start_hz = next_start(self.next_start_hz, start_hz, end_hz)
             except DesignError:
-                return Walk(designs, -math.inf if self._holds(start_hz, tolerance, duration_s) else math.inf)
-            if end_hz >= self.high_hz:
-                return Walk(designs, -math.inf)
+                endless = is_too_long(self.rows, start_hz, tolerance, duration_s)
+                return Walk(designs, -math.inf if endless else math.inf)
             designs.append(design)
-            start_hz = following_hz
         rest = Band(start_hz, self.high_hz)
         if rest.high_hz > WIDEST_RATIO * rest.low_hz:
             return Walk(designs, math.inf)
         last = self.rows.shortest(rest, allowed[-1])
         return Walk([*designs, last], math.log(last.shaper.duration_s / duration_s))
-
-    def _holds(self, start_hz: float, tolerance: float, duration_s: float) -> bool:
-        """Whether a duration does for the widest band from a start: then a row fails by being too long."""
-        rule, damping_ratio = RULES[self.rows.amplitudes], self.rows.damping_ratio
-        return worst_at_ends(duration_s * start_hz, damping_ratio, tolerance, rule)[1] <= tolerance

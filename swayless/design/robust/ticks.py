@@ -233,7 +233,7 @@ def taps_after(ideal: RobustDesign, tick_s: float, amplitudes: Amplitudes) -> Ro
     """
     if amplitudes == "unity-magnitude":
         anything = replace(ideal.shaper, guarantee=replace(ideal.shaper.guarantee, tolerance=1.0))
-        taps = whole_tick_taps(anything, tick_s)
+        taps = whole_tick_fixed_duration(anything, tick_s)
         left = replace(taps.guarantee, tolerance=taps.guarantee.worst_residual_ratio)
         return RobustTaps(replace(taps, guarantee=left), ideal)
     last = last_tick(ideal.shaper.duration_s, tick_s)

@@ -134,6 +134,7 @@ def test_progress_counts_the_rows() -> None:
         (lambda: cover_with(1, 0.2, 1.2, BOUNDED, duration_s=2.0), r"more rows or a longer duration do"),
         (lambda: cover_with(3, 0.2, 0.3, BOUNDED, duration_s=9.0), r"at 0.01 already; fewer rows"),
         (lambda: cover(0.2, 0.6, BOUNDED, duration_s=0.5), r"too short"),
+        (lambda: cover(0.2, 0.6, BOUNDED, duration_s=20.0), r"a longest one instead of a fixed one"),
         (
             lambda: cover(0.2, 0.6, BOUNDED, duration_s=2.6, next_start_hz=lambda end_hz: 0.8 * end_hz),
             r"less overlap, a longer duration or a larger tolerance do",
