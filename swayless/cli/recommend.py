@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,7 +14,16 @@ if TYPE_CHECKING:
     from swayless.design.tradeoff import Need, Recommendation, Refusal
     from swayless.machine import Machine
 
-COLUMNS = ("", "candidate", "holds", "leaves", "time [s]", "m per m/s", "stop [m]", "peak", "bound [s]")
+NOTE = (
+    "leaves: at most, in any part of the range; m per m/s: way that it adds once released, per m/s of speed; "
+    "stop: way from full speed to rest, ramp included; bound: time in s proved too short for any of its kind"
+)
+"""What the heads of the table mean."""
+
+ROUNDING = 1e-6
+"""A share is rounded down to 0.1 %, but a whole one that is short by rounding stays whole."""
+
+COLUMNS = ("", "candidate", "holds", "leaves", "time [s]", "m per m/s", "stop [m]", "peak", "bound")
 
 MachineArgument = Annotated[
     Path, typer.Argument(metavar="MACHINE.toml", help="A machine file.", show_default=False)
@@ -75,6 +85,8 @@ def _print(machine: Machine, need: Need, ranked: list[Recommendation], refused: 
     within = "" if need.longest_overtravel_m is None else f" within {need.longest_overtravel_m:g} m"
     title = f"{machine.name}: what holds {_range(machine)} at {per_cent(need.tolerance)}{within}"
     print_table(title, COLUMNS, [_row(place, item) for place, item in enumerate(ranked, start=1)])
+    print_line(NOTE)
+    print_line("")
     for place, item in enumerate(ranked, start=1):
         print_line(f"{place} {item.candidate.name}: {item.reason}")
     for refusal in refused:
@@ -90,18 +102,20 @@ def _range(machine: Machine) -> str:
 
 
 def _row(place: int, item: Recommendation) -> list[str]:
+    from swayless.cli.console import rounded_down
+
     candidate = item.candidate
     bound_s = candidate.lower_bound_s
     return [
         f"{place}",
         candidate.name,
-        f"{100 * candidate.share:.4g} %",
+        f"{math.floor(1000 * candidate.share + ROUNDING) / 10:g} %",
         f"{100 * candidate.worst_residual_ratio:.3g} %",
         f"{candidate.duration_s:.4g}",
-        f"{candidate.overtravel_s:.4g}",
-        f"{candidate.overtravel_m:.4g}",
+        f"{candidate.overtravel_s:.3g}",
+        f"{candidate.overtravel_m:.3g}",
         f"{candidate.peak_factor:.3g}",
-        "-" if bound_s is None else f"{bound_s:.4g}",
+        "-" if bound_s is None else rounded_down(bound_s, 4),
     ]
 
 
