@@ -17,12 +17,18 @@ class Features:
         Whether the limit of that name is not 0.
     has_waiting_rows : bool
         Whether a row has negative amplitudes.
+    has_rope : bool
+        Whether the rope is measured.
+    has_phase_clock : bool
+        Whether delays are phases of the pendulum.
     """
 
     has_minimum: bool
     has_resolution: bool
     has_inching: bool
     has_waiting_rows: bool
+    has_rope: bool
+    has_phase_clock: bool
 
     @property
     def checked_doc(self) -> str:
@@ -53,4 +59,6 @@ def features_of(settings: ShaperSettings) -> Features:
         has_resolution=limits.command_resolution > 0,
         has_inching=limits.inching_command > 0,
         has_waiting_rows=any(table.waits for table in settings.row_tables),
+        has_rope=settings.rope is not None,
+        has_phase_clock=settings.clock is not None,
     )

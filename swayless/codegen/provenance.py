@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from swayless.codegen.law_text import law_lines, phase_row_lines, rope_lines
+from swayless.controller.phase_taps import PhaseTaps
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.taps import Row
 from swayless.design.robustness import overtravel_s, peak_factor, rope_length_interval_m
@@ -97,7 +99,6 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
     facts : list of str
         What only this target knows: how to call it, memory, compiler flags.
     """
-    limits = settings.limits
     lines = [
         f"{provenance.name}: command shaper. The load does not swing when the drive follows the reference.",
         "",
@@ -105,9 +106,7 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
         f"Design SHA-256 {provenance.design_sha256}.",
         "This file is yours: use, change and ship it as you like.",
         "",
-        f"Tick {settings.tick_s:.9g} s, numbers in {settings.number.name}, law fixed (tick clock).",
-        f"Commands in {limits.units}, at most {limits.max_command:.9g}. "
-        f"Settled after {settings.longest_delay_ticks} ticks without change.",
+        *law_lines(settings),
         "Rows of the selector, and the residual vibration that each guarantees on these very taps:",
         "  0 unshaped (ramped only)",
     ]
@@ -116,7 +115,7 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
             f"  {position} {line}" if i == 0 else f"    {line}"
             for i, line in enumerate(_row_lines(row, provenance))
         ]
-    lines += ["", *facts, ""]
+    lines += [*rope_lines(settings), "", *facts, ""]
     lines += [
         "NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.",
         "Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.",
@@ -127,6 +126,8 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
 
 def _row_lines(row: Row, provenance: Provenance) -> list[str]:
     taps, guarantee = row.taps, row.taps.guarantee
+    if isinstance(taps, PhaseTaps):
+        return phase_row_lines(row)
     mode, band = guarantee.mode, guarantee.band
     lines = [
         f"{row.name}: {row.family} for {mode.frequency_hz:.6g} Hz, damping ratio {mode.damping_ratio:.6g}, "

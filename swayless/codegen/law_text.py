@@ -1,0 +1,79 @@
+"""What the head of a generated file says of the law: the clock, the rope, and what each row guarantees."""
+
+from __future__ import annotations
+
+from swayless.controller.rope import MM_PER_M, RopeSettings
+from swayless.controller.settings import ShaperSettings
+from swayless.controller.taps import Row
+from swayless.design.robustness import overtravel_s
+
+PHASE_LAW = (
+    "Delays are phases of the pendulum: a tap releases its part of a change of the command when the load",
+    "has swung on by the phase designed, however the rope was hoisted meanwhile. Give the rope length and",
+    "its rate of change, positive when the load sinks, on every tick. A hoist that starts or stops under a",
+    "swinging load kicks it: the reference answers with a step, and may pass the present command by that,",
+    "but never the maximum. The stop distance is exact on a rope that is held still; a hoist that has just",
+    "changed its speed makes it approximate until what it owes is released.",
+)
+
+ROPE_READINGS = (
+    "A rope length that is not valid, not finite or farther from the last one than the hoist could have",
+    "moved is not taken: the last one holds, shaping goes on and a status bit says so. At rest every length",
+    "is taken.",
+)
+
+
+def law_lines(settings: ShaperSettings) -> list[str]:
+    """Name the law, the units and the longest settling.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    """
+    limits, ticks = settings.limits, settings.longest_delay_ticks
+    law, still = "fixed (tick clock)", ""
+    if settings.clock is not None:
+        law, still = "phase (hoisting while travelling)", " on the longest rope"
+    return [
+        f"Tick {settings.tick_s:.9g} s, numbers in {settings.number.name}, law {law}.",
+        f"Commands in {limits.units}, at most {limits.max_command:.9g}. "
+        f"Settled after {ticks} ticks without change{still}.",
+    ]
+
+
+def rope_lines(settings: ShaperSettings) -> list[str]:
+    """Say what the block makes of a measured rope; nothing where there is none.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    """
+    rope = settings.rope
+    if rope is None:
+        return []
+    law = [] if settings.clock is None else PHASE_LAW
+    return ["", *law, *ROPE_READINGS, _range_line(rope, MM_PER_M if settings.number.is_integer else 1)]
+
+
+def _range_line(rope: RopeSettings, per_m: int) -> str:
+    shortest, longest, speed = (float(v) / per_m for v in (rope.shortest, rope.longest, rope.hoist_speed))
+    return f"Rope {shortest:.6g} to {longest:.6g} m, hoisted with at most {speed:.6g} m/s."
+
+
+def phase_row_lines(row: Row) -> list[str]:
+    """Say what a row guarantees whose delays are phases.
+
+    Parameters
+    ----------
+    row : Row
+        A row of the phase clock.
+    """
+    taps, guarantee = row.taps, row.taps.guarantee
+    return [
+        f"{row.name}: {row.family} over the phase, damping ratio {guarantee.mode.damping_ratio:.6g}, "
+        f"duration {taps.duration_s:.6g} s on the longest rope",
+        f"at most {100 * guarantee.tolerance:.6g} % on every rope of the range that is held still",
+        f"overtravel {overtravel_s(taps):.6g} m per m/s on the longest rope",
+    ]
