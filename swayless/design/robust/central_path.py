@@ -18,9 +18,9 @@ from swayless.errors import DesignError
 
 RealOrComplexArray: TypeAlias = NDArray[np.float64] | NDArray[np.complex128]
 
-_GAP = 1e-4  # relative gap of the optimum found: close enough to tell its impulses and peaks
 _TIGHTENED = 20.0  # how much nearer to the optimum each centre is than the last
 _CENTRED = 1.0  # Newton decrement (squared) at which a centre is near enough for the next
+_AT_CENTRE = 1e-6  # the same for the last one, whose weights are to be dual values
 _TO_BOUNDARY = 0.95  # share of the way to the nearest limit that one step may go
 _STEPS = 400  # thirty to fifty are usual
 
@@ -34,7 +34,7 @@ class Centre:
     variables : ndarray, shape (n,)
         Each between 0 and 1.
     worst : float
-        A bound of all sizes, within 1e-4 of the least possible.
+        A bound of all sizes, within the gap asked for of the least possible.
     weights : ndarray, shape (k,)
         Dual values of the sizes, >= 0, in sum nearly 1: those that hold the optimum up are large.
     """
@@ -45,7 +45,12 @@ class Centre:
 
 
 def least_worst(
-    rows: RealOrComplexArray, offset: RealOrComplexArray, *, sum_to_one: bool, resolved: float = 1e-3
+    rows: RealOrComplexArray,
+    offset: RealOrComplexArray,
+    *,
+    sum_to_one: bool,
+    resolved: float = 1e-3,
+    gap: float = 1e-4,
 ) -> Centre:
     """Minimise the largest |offset + rows @ x| over 0 <= x <= 1, with sum 1 if asked for.
 
@@ -59,6 +64,8 @@ def least_worst(
         Whether the variables must sum to 1.
     resolved : float
         Size below which the optimum need not be told from 0.
+    gap : float
+        Relative distance to the optimum that may be left.
 
     Raises
     ------
@@ -83,13 +90,15 @@ def least_worst(
     tightness = 2.0 * limits / worst
     for _ in range(_STEPS):
         point, decrement = path.step(point, tightness)
-        if decrement > _CENTRED:
+        enough = limits / (gap * max(float(point[-1]), resolved))
+        last = tightness >= enough
+        if decrement > (_AT_CENTRE if last else _CENTRED):
             continue
-        if limits < _GAP * tightness * max(point[-1], resolved):
+        if last:
             size = np.abs(offset + rows @ point[:-1])
             weights = 2.0 * size / ((point[-1] ** 2 - size**2) * tightness)
             return Centre(point[:-1], float(point[-1]), weights)
-        tightness *= _TIGHTENED
+        tightness = min(_TIGHTENED * tightness, 1.1 * enough)
     raise DesignError(f"central path of {n} variables and {offset.size} sizes: not done in {_STEPS} steps")
 
 
@@ -113,7 +122,13 @@ class _Path:
     def step(self, point: FloatArray, tightness: float) -> tuple[FloatArray, float]:
         """One damped step of Newton's method: the new point, and the squared decrement at the old one."""
         slope, curvature = self._derivatives(point, tightness)
-        direction = np.linalg.solve(curvature, -slope)[: point.size]
+        # Distances to limits differ by ten orders of magnitude: scaled by them, equations are solved well.
+        scale = 1.0 / np.sqrt(np.append(curvature.diagonal()[: point.size], np.ones(slope.size - point.size)))
+        try:
+            scaled = np.linalg.solve(curvature * np.multiply.outer(scale, scale), -slope * scale)
+        except np.linalg.LinAlgError:
+            return point, 0.0  # as centred as double precision allows
+        direction = (scaled * scale)[: point.size]
         decrement = -float(slope[: point.size] @ direction)
         variables, change = point[:-1], direction[:-1]
         distance = np.where(change < 0.0, variables, 1.0 - variables)

@@ -124,7 +124,6 @@ def check_amplitudes(amplitudes: str, impulses: int | None) -> None:
         raise DesignError(f"impulses = {impulses!r}: only with amplitudes = 'unity-magnitude'")
     if impulses < _FEWEST_IMPULSES or impulses % 2 == 0:
         raise DesignError(f"impulses = {impulses!r}: must be odd and at least {_FEWEST_IMPULSES}")
-    raise DesignError(f"impulses = {impulses!r}: a given number of impulses is not designed yet")
 
 
 def check_tolerance(tolerance: float) -> None:

@@ -1,4 +1,4 @@
-"""The exact optimum of a goal: the coarse one is approached until its structure is the exact one's.
+"""The optimum of a goal: nearly found by exchange, then exactly by Newton's method, then proved.
 
 Not for: units, rules by name and guarantees (`specified`).
 """
@@ -7,31 +7,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from swayless.design.minimax import AmplitudeRule
-from swayless.design.robust.coarse import coarse_optimum
+from swayless.design.robust.demand import WIDEST_RATIO
+from swayless.design.robust.guess import cleaned, first_guess
 from swayless.design.robust.lines import Line
-from swayless.design.robust.search import certificate_of, feasible, first_guess, settle
+from swayless.design.robust.refined import refined
+from swayless.design.robust.search import certificate_of, settle
 from swayless.design.robust.stationary import Goal, Optimum
 from swayless.errors import DesignError
 
-_TRIALS = 16  # of durations or edges; two or three are usual
-_NEAR = 0.15  # log of the worst residual over the tolerance, within which the structure may be the final one
-_NARROW = 0.02  # log of the bracket's ends: near enough where the residual jumps
-_FINEST = 4  # times as many points as usual, where two impulses nearly meet
+Problem: TypeAlias = Callable[[float], tuple[Sequence[Line], float]]
+
+_STAGES = ((0.15, 1e-2), (0.02, 1e-3), (2e-3, 2e-4), (2e-4, 5e-5))
+"""How near (in logs) the worst residual must come to the tolerance before an exact solve is tried from there,
+and the gap at which it is found: the structure is nearly always right at the first or second."""
+
+LEAST_RESIDUAL = 1e-3
+"""Residual vibration below which nothing is gained."""
+
+_AMPLE = 3.0  # periods: enough for the widest band at the smallest tolerance
+_TRIALS = 60  # of durations or edges; three to ten are usual
+_NARROW = 1e-6  # log of the bracket's ends: there the residual jumps
+_NEAREST = 1e-4  # the least change of a size before there is a bracket
+_LESS = 1e-6  # relative: by how much more than it must a design that is not settled stays below its tolerance
 _LARGEST_MOVE = 0.4  # in logs, before there is a bracket
 _STEEPNESS = 3.0  # a usual d log(worst) / d log(duration)
-_GAPS = (
-    1e-6,
-    1e-5,
-    1e-4,
-    1e-3,
-    3e-3,
-)  # relative: how much shorter a duration is tried to be proved infeasible
-
-WIDEST_RATIO = 8.0
-"""Largest ratio of the band's ends that is solved."""
+_RESOLVED = 0.25  # of the tolerance: below it nothing needs to be told apart
+_LEAST = 1e-3  # of the tolerance: less than that is as good as nothing, and has no log
+_GAPS = (1e-6, 1e-5, 1e-4, 1e-3, 2.9e-3)
+"""How much shorter, relative, a duration is tried to be proved infeasible."""
 
 
 def shortest(lines: Sequence[Line], tolerance: float, rule: AmplitudeRule) -> Optimum:
@@ -40,7 +47,7 @@ def shortest(lines: Sequence[Line], tolerance: float, rule: AmplitudeRule) -> Op
     Raises
     ------
     DesignError
-        If no optimum is found.
+        If none are found.
     """
 
     def problem(size: float) -> tuple[Sequence[Line], float]:
@@ -56,7 +63,7 @@ def widest(duration: float, damping_ratio: float, tolerance: float, rule: Amplit
     Raises
     ------
     DesignError
-        If no optimum is found.
+        If none are found.
     """
 
     def problem(size: float) -> tuple[Sequence[Line], float]:
@@ -68,35 +75,40 @@ def widest(duration: float, damping_ratio: float, tolerance: float, rule: Amplit
 def worst_at_ends(
     duration: float, damping_ratio: float, tolerance: float, rule: AmplitudeRule
 ) -> tuple[float, float]:
-    """Estimate what a duration leaves at frequency 1 alone, and from there to the widest ratio."""
-    lines = ([Line(1.0, high, damping_ratio)] for high in (1.0, WIDEST_RATIO))
-    narrow, wide = (coarse_optimum(line, duration, rule, tolerance=tolerance).worst for line in lines)
+    """Bound what a duration leaves at frequency 1 alone from below, and up to the widest ratio from above."""
+    narrow, _ = residual_range([Line(1.0, 1.0, damping_ratio)], duration, tolerance, rule)
+    widest_line = Line(1.0, WIDEST_RATIO, damping_ratio)
+    _, wide = residual_range([widest_line], min(duration, _AMPLE), tolerance, rule)
     return narrow, wide
 
 
+def residual_range(
+    lines: Sequence[Line], duration: float, tolerance: float, rule: AmplitudeRule
+) -> tuple[float, float]:
+    """Bound the least worst residual vibration of a duration from below and from above."""
+    found = refined(lines, duration, rule, gap=_STAGES[-1][1], resolved=_RESOLVED * tolerance)
+    return found.bound, found.worst
+
+
 def least(lines: Sequence[Line], duration: float, tolerance: float, rule: AmplitudeRule) -> Optimum:
-    """Find the impulses of a duration that leave the least on all lines.
+    """Find the impulses of a duration that leave the least on all lines, resolved to a share of a tolerance.
+
+    Where that is less than `LEAST_RESIDUAL`, they are the shortest that leave so much.
 
     Raises
     ------
     DesignError
-        If no optimum is found.
+        If none are found.
     """
-    optimum = _least(lines, duration, tolerance, rule)
-    if optimum is None:
-        raise DesignError(f"no optimum found for {duration:g} periods")
-    return optimum
-
-
-def _least(lines: Sequence[Line], duration: float, tolerance: float, rule: AmplitudeRule) -> Optimum | None:
-    """Find it on finer and finer grids; None if none of them leads there."""
-    for fineness in range(1, _FINEST + 1):
-        coarse = coarse_optimum(lines, duration, rule, tolerance=tolerance, fineness=fineness)
-        guess = first_guess(coarse, lines, rule, coarse.worst, Goal.WORST)
-        optimum = settle(guess, lines, Goal.WORST, rule, thorough=fineness > 1)
+    for _, gap in _STAGES:
+        found = refined(lines, duration, rule, gap=gap, resolved=_RESOLVED * tolerance)
+        if found.worst < LEAST_RESIDUAL:
+            return shortest(lines, LEAST_RESIDUAL, rule)
+        guess = first_guess(found, lines, rule, found.worst, Goal.WORST)
+        optimum = settle(guess, lines, Goal.WORST, rule, thorough=gap < _STAGES[0][1])
         if optimum is not None:
             return optimum
-    return None
+    return cleaned(found, lines, rule)
 
 
 def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, rule: AmplitudeRule) -> float:
@@ -112,53 +124,77 @@ def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, r
         best = settle(each, lines, Goal.WORST, rule, thorough=True)
         if best is not None and certificate_of(best).bound(rule) > tolerance:
             return each.duration
-    for each in shorter:  # where another structure holds just below the optimum's duration
-        best = _least(lines, each.duration, tolerance, rule)
-        if best is not None and certificate_of(best).bound(rule) > tolerance:
+    for each in shorter[2:]:  # where another structure holds just below the optimum's duration
+        bound, _ = residual_range(lines, each.duration, tolerance, rule)
+        if bound > tolerance:
             return each.duration
     raise DesignError(
-        f"no duration within {_GAPS[-1]:.1%} of {optimum.duration:.6g} periods is proved too short"
+        f"the design found, of {optimum.duration:.6g} periods of the lowest frequency, is not proved within "
+        f"{_GAPS[-1]:.2%} of the shortest: {shorter[-1].duration:.6g} periods leave at least {bound:.6g}, "
+        f"not {tolerance:.6g}; a tolerance a little off has a proof"
     )
 
 
-def _approach(
-    problem: Callable[[float], tuple[Sequence[Line], float]],
-    size: float,
-    tolerance: float,
-    goal: Goal,
-    rule: AmplitudeRule,
-) -> Optimum:
-    """Solve coarsely for sizes (logs: of the duration, or of how low the upper edge is), then exactly."""
-    over, under, fineness = (-math.inf, math.inf), (math.inf, -math.inf), 1
-    for trial in range(_TRIALS):
-        lines, duration = problem(size)
-        coarse = coarse_optimum(lines, duration, rule, tolerance=tolerance, fineness=fineness)
-        excess = math.log(coarse.worst / tolerance)
+@dataclass
+class _Bracket:
+    """Sizes (logs: of the duration, or of how low the upper edge is) on both sides of what is aimed at."""
+
+    steepness: float = _STEEPNESS
+    over: tuple[float, float] = (-math.inf, math.inf)
+    under: tuple[float, float] = (math.inf, -math.inf)
+    trials: int = 0
+
+    @property
+    def width(self) -> float:
+        """Distance of the two."""
+        return self.under[0] - self.over[0]
+
+    def restarted(self) -> _Bracket:
+        """Forget the sizes, which belong to another gap or aim, but not how steep they were."""
+        if not math.isfinite(self.width):
+            return _Bracket(self.steepness)
+        return _Bracket(max(1.0, (self.over[1] - self.under[1]) / self.width))
+
+    def next_size(self, size: float, excess: float) -> float:
+        """Regula falsi inside a bracket, with a bisection now and then; before there is one, a usual step."""
+        self.trials += 1
         if excess > 0.0:
-            over = max(over, (size, excess))
+            self.over = max(self.over, (size, excess))
         else:
-            under = min(under, (size, excess))
-        width = under[0] - over[0]
-        if abs(excess) < _NEAR or width < _NARROW:
-            guess = first_guess(coarse, lines, rule, tolerance, goal)
-            optimum = settle(guess, lines, goal, rule, thorough=fineness > 1)
-            if optimum is not None:
-                return optimum
-            fineness = min(fineness + 1, _FINEST)
-        size = _next_size(size, excess, over, under, halve=trial % 3 == 2)
-    optimum = feasible(first_guess(coarse, lines, rule, tolerance, goal), lines, goal, rule)
-    if optimum is None:
-        raise DesignError(f"no optimum found in {_TRIALS} trials, the last of {duration:g} periods")
-    return optimum
+            self.under = min(self.under, (size, excess))
+        if self.width < _NARROW:
+            return self.under[0]
+        if not math.isfinite(self.width):
+            step = 1.1 * excess / self.steepness * self.trials
+            return size + max(-_LARGEST_MOVE, min(_LARGEST_MOVE, step)) + math.copysign(_NEAREST, excess)
+        share = 0.5 if self.trials % 3 == 0 else self.over[1] / (self.over[1] - self.under[1])
+        return self.over[0] + self.width * min(max(share, 0.02), 0.98)
 
 
-def _next_size(
-    size: float, excess: float, over: tuple[float, float], under: tuple[float, float], *, halve: bool
-) -> float:
-    """Regula falsi inside a bracket, with a bisection now and then; before there is one, a usual step."""
-    width = under[0] - over[0]
-    if not math.isfinite(width):
-        step = max(-_LARGEST_MOVE, min(_LARGEST_MOVE, excess / _STEEPNESS))
-        return size + (step if abs(excess) > 0.1 else math.copysign(0.1, excess))
-    share = 0.5 if halve else over[1] / (over[1] - under[1])
-    return over[0] + width * min(max(share, 0.05), 0.95)
+def _approach(problem: Problem, size: float, tolerance: float, goal: Goal, rule: AmplitudeRule) -> Optimum:
+    """Approach the size at which the tolerance is just held, and settle there what is active."""
+    bracket, aim = _Bracket(), tolerance
+    stages = iter(_STAGES)
+    near, gap = next(stages)
+    for _ in range(_TRIALS):
+        lines, duration = problem(size)
+        found = refined(lines, duration, rule, gap=gap, resolved=_RESOLVED * tolerance)
+        excess, last = math.log(max(found.worst / aim, _LEAST)), gap == _STAGES[-1][1]
+        if not (-near <= excess <= (0.0 if last else near) or (excess < 0.0 and bracket.width < _NARROW)):
+            size = bracket.next_size(size, excess)
+            continue
+        bracket = bracket.restarted()
+        guess = first_guess(found, lines, rule, tolerance, goal)
+        optimum = settle(guess, lines, goal, rule, thorough=gap < _STAGES[0][1])
+        if optimum is not None:
+            return optimum
+        if last:
+            design = cleaned(found, lines, rule)
+            if design.worst <= tolerance:
+                return design
+            aim *= tolerance / design.worst * (1.0 - _LESS)
+        near, gap = next(stages, _STAGES[-1])
+    raise DesignError(
+        f"no design found in {_TRIALS} trials; the last, of {duration:.6g} periods of the lowest frequency, "
+        f"leaves {found.worst:.6g}, at least {found.bound:.6g}, where {tolerance:g} is asked for"
+    )

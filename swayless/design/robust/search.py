@@ -1,4 +1,4 @@
-"""From a coarse optimum to the exact one: what is active is read off, polished, checked and corrected.
+"""From nearly the optimum to the exact one: what is active is polished, checked and corrected.
 
 An optimum is accepted only when its residual vibration keeps to the worst at every frequency of every line,
 and its certificate at every time: then no design is better, however it was found. Not for: units (`design`).
@@ -15,13 +15,11 @@ from numpy.typing import NDArray
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.minimax.response import ComplexArray, IndexArray, Response
 from swayless.design.robust.certificate import Certificate
-from swayless.design.robust.coarse import Coarse
 from swayless.design.robust.lines import Line
 from swayless.design.robust.stationary import Goal, Optimum, polish
 from swayless.design.shaper import FloatArray
 
 _ROUNDS = 12  # of correction; two or three are usual
-_ACTIVE = 2e-3  # amplitudes and weights below this in a coarse optimum are its distance to the exact one
 _ADMITTED = 1e-2  # amplitude or weight with which a newcomer starts
 _TOUCH = 1e-8  # relative: peaks and dips beyond the worst by more are not yet covered
 _FARTHEST = 0.3  # relative: solutions farther from their start belong to another structure
@@ -44,24 +42,11 @@ def settle(
     start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule, *, thorough: bool = False
 ) -> Optimum | None:
     """Polish, check and correct until the conditions hold everywhere; None if they do not come to."""
+    if start.times.size == 1:
+        return None
     for candidate in candidates(start, goal) if thorough else [start]:
         optimum = _settled(candidate, lines, goal, rule)
         if optimum is not None:
-            return optimum
-    return None
-
-
-def feasible(start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule) -> Optimum | None:
-    """Polish until the tolerance is held, whether or not that is proved to be the best; None if it is not."""
-    for candidate in candidates(start, goal):
-        optimum = polish(candidate, goal, rule)
-        if optimum is None or not is_near(optimum, candidate):
-            continue
-        if goal is Goal.REACH:
-            lines = [replace(line, high=float(optimum.frequency[-1])) for line in lines]
-        positive = rule is not AmplitudeRule.POSITIVE or optimum.amplitudes.min() > 0.0
-        worst = float(np.abs(peaks_of(optimum.times, optimum.amplitudes, lines).value).max())
-        if positive and np.diff(optimum.times).min() > 0.0 and worst <= optimum.worst * (1.0 + _TOUCH):
             return optimum
     return None
 
@@ -115,23 +100,6 @@ def is_near(optimum: Optimum, start: Optimum) -> bool:
     return bool(durations and frequencies)
 
 
-def first_guess(
-    coarse: Coarse, lines: Sequence[Line], rule: AmplitudeRule, worst: float, goal: Goal
-) -> Optimum:
-    """Read impulses and peaks off a coarse optimum."""
-    times, amplitudes = _clusters(coarse) if rule is AmplitudeRule.POSITIVE else _switches(coarse)
-    peaks = peaks_of(coarse.times, coarse.amplitudes, lines)
-    away = np.abs(np.subtract.outer(coarse.frequency, peaks.frequency))
-    away[np.not_equal.outer(coarse.turn, peaks.turn)] = np.inf
-    weights = np.bincount(away.argmin(axis=1), coarse.weights, peaks.frequency.size)
-    kept = weights > _ACTIVE * weights.max()
-    kept[-1] |= goal is Goal.REACH  # the upper edge is what moves
-    weights = np.maximum(weights / weights.sum(), _ACTIVE)
-    phase = np.angle(peaks.value)
-    guess = Optimum(times, amplitudes, peaks.frequency, peaks.turn, peaks.moving, weights, phase, worst)
-    return with_peaks(guess, kept)
-
-
 @dataclass(frozen=True, eq=False)
 class LinePeaks:
     """Local maxima of the residual vibration on all lines, in the order of the lines.
@@ -154,52 +122,33 @@ class LinePeaks:
     value: ComplexArray
 
 
-def _alternating(count: int) -> FloatArray:
+def alternating(count: int) -> FloatArray:
     """Amplitudes +1, -1, +1, ..."""
     return 1.0 - 2.0 * np.asarray(np.arange(count) % 2, dtype=np.float64)
 
 
 def peaks_of(times: FloatArray, amplitudes: FloatArray, lines: Sequence[Line]) -> LinePeaks:
     """Find every local maximum of the residual vibration on every line."""
-    duration = float(times[-1])
     found = []
     for line in lines:
-        response = Response.of_times(times, line.damping_ratio)
-        peaks = response.peaks(amplitudes, line.low * duration, line.high * duration)
-        frequency = peaks.frequency / duration
-        for end in (line.low, line.high):
-            frequency[np.abs(frequency - end) < _AT_END * end] = end
+        frequency = np.array([line.low])
+        if line.high > line.low:
+            frequency = _peak_frequencies(times, amplitudes, line)
+        value = np.exp(np.multiply.outer(frequency * line.turn, times - times[-1])) @ amplitudes
         moving = (frequency > line.low) & (frequency < line.high)
-        found.append((frequency, np.full(frequency.size, line.turn), moving, peaks.value))
+        found.append((frequency, np.full(frequency.size, line.turn), moving, value))
     frequencies, turns, movings, values = (np.concatenate(parts) for parts in zip(*found, strict=True))
     return LinePeaks(frequencies, turns, movings, values)
 
 
-def _clusters(coarse: Coarse) -> tuple[FloatArray, FloatArray]:
-    """Mass and place of each bump of a grid of positive amplitudes; the outermost at the ends."""
-    mass = coarse.amplitudes
-    valley = np.flatnonzero((mass[1:-1] < mass[:-2]) & (mass[1:-1] <= mass[2:])) + 1
-    starts = np.concatenate([[0], valley])
-    amplitudes = np.add.reduceat(mass, starts)
-    times = np.add.reduceat(mass * coarse.times, starts) / amplitudes
-    kept = amplitudes > _ACTIVE
-    times, amplitudes = times[kept], amplitudes[kept] / amplitudes[kept].sum()
-    times[0], times[-1] = 0.0, coarse.times[-1]
-    return times, amplitudes
-
-
-def _switches(coarse: Coarse) -> tuple[FloatArray, FloatArray]:
-    """Find where the level of the reference passes one half: switches, of unity amplitude."""
-    level = np.cumsum(coarse.amplitudes)[:-1]
-    middle = (coarse.times[1:] + coarse.times[:-1]) / 2.0
-    at = np.flatnonzero((level[1:] > 0.5) != (level[:-1] > 0.5))
-    share = (0.5 - level[at]) / (level[at + 1] - level[at])
-    inner = middle[at] + share * (middle[at + 1] - middle[at])
-    width = coarse.times[1]
-    first = [level[0] * width] if level[0] < 0.5 else []
-    last = [coarse.times[-1] - (1.0 - level[-1]) * width] if level[-1] > 0.5 else []
-    times = np.concatenate([[0.0], first, inner, last, coarse.times[-1:]])
-    return times, _alternating(times.size)
+def _peak_frequencies(times: FloatArray, amplitudes: FloatArray, line: Line) -> FloatArray:
+    """Find where the residual vibration peaks on a line."""
+    duration = float(times[-1])
+    response = Response.of_times(times, line.damping_ratio)
+    frequency = response.peaks(amplitudes, line.low * duration, line.high * duration).frequency / duration
+    for end in (line.low, line.high):
+        frequency[np.abs(frequency - end) < _AT_END * end] = end
+    return frequency
 
 
 def _corrected(optimum: Optimum, lines: Sequence[Line], rule: AmplitudeRule) -> tuple[Optimum, bool]:
@@ -249,7 +198,7 @@ def _with_times(optimum: Optimum, rule: AmplitudeRule) -> tuple[Optimum, bool]:
     times = certificate.dips() if positive else certificate.extremes()
     if not positive:
         times = np.concatenate([[0.0], times, [optimum.duration]])
-        return _with_impulses(optimum, times, _alternating(times.size))
+        return _with_impulses(optimum, times, alternating(times.size))
     far = np.abs(np.subtract.outer(times, optimum.times)).min(axis=1) > _NEWCOMER * apart
     new = times[far & (certificate(times)[0] < optimum.worst * (1.0 - _COVERED))]
     admitted = np.full(new.size, _ADMITTED)

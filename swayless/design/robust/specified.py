@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from swayless.design.robust import unity
 from swayless.design.robust.between import with_points_between
 from swayless.design.robust.demand import (
     RULES,
@@ -20,7 +21,14 @@ from swayless.design.robust.demand import (
     check_tolerance,
     damping_range,
 )
-from swayless.design.robust.exact import least, proven_duration, shortest, widest, worst_at_ends
+from swayless.design.robust.exact import (
+    LEAST_RESIDUAL,
+    least,
+    proven_duration,
+    shortest,
+    widest,
+    worst_at_ends,
+)
 from swayless.design.robust.lines import Line
 from swayless.design.robust.stationary import Optimum
 from swayless.design.robustness import TOUCH_SLACK, worst_residual_promised
@@ -125,8 +133,7 @@ def specified_insensitivity(
         shaper = _shaper(optimum, demand, tolerance, "si")
         excess = shaper.guarantee.worst_residual_ratio / tolerance
         if excess <= 1.0 + TOUCH_SLACK:
-            bound = proven_duration(optimum, lines, tolerance, demand.rule)
-            return RobustDesign(shaper, bound / demand.unit_hz)
+            return RobustDesign(shaper, _bound_s(optimum, lines, demand, tolerance))
         goal /= excess
     raise DesignError(f"{demand}: leaves {excess:.9g} times the tolerance {tolerance!r}")
 
@@ -190,11 +197,14 @@ def fixed_duration(
             f"duration_s = {duration_s!r}: enough for {low_hz:g} to {WIDEST_RATIO * low_hz:g} Hz and "
             "more; ask for the shortest shaper of the band you need instead"
         )
-    optimum = widest(duration, damping, tolerance, rule)
+    if impulses is None:
+        optimum = widest(duration, damping, tolerance, rule)
+    else:
+        optimum = unity.widest(duration, damping, tolerance, impulses)
     band = Band(low_hz, low_hz * min(float(optimum.frequency[-1]), WIDEST_RATIO))
     demand = Demand.of(band, damping, amplitudes, impulses)
-    bound = proven_duration(optimum, demand.lines, tolerance, rule)
-    return RobustDesign(_shaper(optimum, demand, tolerance, "fd"), bound / demand.unit_hz)
+    bound_s = _bound_s(optimum, demand.lines, demand, tolerance)
+    return RobustDesign(_shaper(optimum, demand, tolerance, "fd"), bound_s)
 
 
 def least_residual(
@@ -219,7 +229,8 @@ def least_residual(
     Returns
     -------
     RobustDesign
-        The tolerance of its guarantee is the least there is.
+        The tolerance of its guarantee is the least there is; where that is below 0.1 %, it is the shortest
+        design, no longer than asked for, that leaves 0.1 %.
 
     Raises
     ------
@@ -234,14 +245,34 @@ def least_residual(
     """
     check_duration(duration_s)
     demand = Demand.of(band, damping_range(damping_ratio), amplitudes, impulses)
-    optimum = least(demand.lines, duration_s * demand.unit_hz, TOLERANCES[0], demand.rule)
-    bound = proven_duration(optimum, demand.lines, optimum.worst, demand.rule)
-    return RobustDesign(_shaper(optimum, demand, optimum.worst, "fd"), bound / demand.unit_hz)
+    lines, duration = demand.lines, duration_s * demand.unit_hz
+    if impulses is None:
+        optimum = least(lines, duration, TOLERANCES[0], demand.rule)
+    else:
+        optimum = unity.least(lines, duration, impulses)
+    tolerance = optimum.worst
+    if tolerance < LEAST_RESIDUAL:
+        optimum, tolerance = _shortest(lines, LEAST_RESIDUAL, demand), LEAST_RESIDUAL
+    bound_s = _bound_s(optimum, lines, demand, tolerance)
+    return RobustDesign(_shaper(optimum, demand, tolerance, "fd"), bound_s)
 
 
 def _shortest_between(demand: Demand, tolerance: float) -> tuple[Optimum, list[Line]]:
     """Find the shortest impulses for all damping ratios, and the lines that they were found for."""
-    return with_points_between(demand.lines, lambda lines: shortest(lines, tolerance, demand.rule))
+    return with_points_between(demand.lines, lambda lines: _shortest(lines, tolerance, demand))
+
+
+def _shortest(lines: Sequence[Line], tolerance: float, demand: Demand) -> Optimum:
+    """Find the shortest impulses, as many as are asked for."""
+    if demand.impulses is None:
+        return shortest(lines, tolerance, demand.rule)
+    return unity.shortest(lines, tolerance, demand.impulses)
+
+
+def _bound_s(optimum: Optimum, lines: Sequence[Line], demand: Demand, tolerance: float) -> float:
+    """Prove a duration too short; for a given number of impulses, too short for any bounded shaper."""
+    best = optimum if demand.impulses is None else shortest(lines, tolerance, demand.rule)
+    return proven_duration(best, lines, tolerance, demand.rule) / demand.unit_hz
 
 
 def _shaper(optimum: Optimum, demand: Demand, tolerance: float, family: str) -> Shaper:
