@@ -65,8 +65,9 @@ def _swayless(
 
 
 app.callback(invoke_without_command=True, help=help_text(_swayless))(_swayless)
-for _command in (init, plot, generate, verify, build):
+for _command in (init, generate, verify, build):
     app.command(help=help_text(_command))(_command)
+app.command(help=help_text(plot), short_help="Draw sensitivity, a response, a bank, or a trade-off.")(plot)
 app.add_typer(design_app, name="design")
 
 

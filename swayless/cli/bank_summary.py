@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from swayless.cli.console import at_most, counted, interval, per_cent, print_line, print_table, rounded_down
+from swayless.cli.console import at_most, counted, interval, print_line, print_table, rounded_down
 from swayless.cli.design_summary import NEGATIVE_NOTE
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def print_bank(design: DesignFile, bank: BankRecord) -> None:
         for label, shaper in zip(bank.labels, design.shapers, strict=True)
     ]
     number = counted(len(rows), "row")
-    print_table(f"{design.name}: {number}, at most {per_cent(bank.tolerance)} is left", columns, rows)
+    print_table(f"{design.name}: {number}, at most {at_most(bank.tolerance, 4)} is left", columns, rows)
     print_line("proven: in less no shaper with such amplitudes holds as much; overtravel: from full speed")
     for line in (*switching(bank), *_waiting(design)):
         print_line(line)

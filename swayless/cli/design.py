@@ -15,6 +15,7 @@ from swayless.cli.design_family import FAMILY, design_family
 from swayless.cli.design_robust import fd, si
 from swayless.cli.help_text import help_text
 from swayless.cli.ranges import RangeCommand
+from swayless.cli.recommend import recommend
 
 
 class DesignGroup(TyperGroup):
@@ -54,8 +55,11 @@ def _design() -> None:
     swayless design si --rope-length 9ft 29ft --tolerance "5 %"
     swayless design fd --duration 3.0 --from 29ft --amplitudes bounded
     swayless design bank crane.toml --rows 3 --duration 3.0
+    swayless design recommend crane.toml --longest-overtravel "1.5 m"
     """
 
+
+_RECOMMEND = "Rank all that could serve a machine, and say why."
 
 design_app = typer.Typer(
     cls=DesignGroup,
@@ -68,3 +72,4 @@ design_app.command(FAMILY, cls=FamilyCommand, help=help_text(design_family))(des
 design_app.command(cls=RangeCommand, help=help_text(si))(si)
 for _command in (fd, bank):
     design_app.command(help=help_text(_command))(_command)
+design_app.command(help=help_text(recommend), short_help=_RECOMMEND)(recommend)

@@ -10,7 +10,7 @@ import typer
 
 from swayless.cli.options import Number
 
-COMMANDS = ("si", "fd", "bank")
+COMMANDS = ("si", "fd", "bank", "recommend")
 """Commands of the group that are not families."""
 
 

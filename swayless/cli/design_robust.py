@@ -131,7 +131,7 @@ def fd(
     output: OutputOption = None,
     json: JsonOption = False,
 ) -> None:
-    """Design the shaper of a given duration that holds the widest range.
+    """Design the shaper of a given duration that reaches farthest.
 
     Fixed duration: at most the tolerance is left from the longest rope, or the lowest frequency, up as far as
     any shaper of the duration and such amplitudes can hold it. Several of them, each one from where the last

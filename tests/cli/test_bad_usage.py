@@ -14,6 +14,7 @@ DESIGN = [
     ("design zvv --frequency 1", 'FAMILY = "zvv": unknown family; nearest: zv,'),
     ("design bnk crane.toml", "unexpected extra argument"),
     ("design bnk", 'FAMILY = "bnk": unknown family; nearest: bank; known: zv,'),
+    ("design recomend", 'FAMILY = "recomend": unknown family; nearest: recommend; known: zv,'),
     ("design FAMILY --frequency 1", 'FAMILY = "FAMILY": unknown family; known: zv,'),
     ("design --frequency 1", "Missing argument 'FAMILY'"),
     ("design --tick 1 si", 'FAMILY = "si": is a command of its own, and stands first: swayless design si'),
