@@ -189,13 +189,13 @@ def _least_tolerance(
         walks[size] = chain.walk(np.exp(size - handicap).tolist(), duration_s)
         return walks[size].excess
 
-    lowest, highest = TOLERANCES
+    highest = TOLERANCES[1]
     size = crossing(excess, start, math.log(highest), steepness=_STEEPNESS, near=near, apart=_APART)
     what = f"rows = {handicap.size}: {duration_s:g} s hold {chain.low_hz:g} to {chain.high_hz:g} Hz"
     if size is None:
         raise DesignError(f"{what} not even at {highest:g}; more rows or a longer duration do")
     if walks[size].excess == -math.inf:
-        raise DesignError(f"{what} at {lowest:g} already; fewer rows or a shorter duration do")
+        raise DesignError(f"{what} at {math.exp(size):.4g} already; fewer rows or a shorter duration do")
     return size, walks[size]
 
 
