@@ -14,7 +14,6 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from swayless.design import (
-    Guarantee,
     Shaper,
     design_shaper,
     residual_vibration,
@@ -22,7 +21,6 @@ from swayless.design import (
     worst_residual,
 )
 from swayless.design.robust import fixed_duration, specified_insensitivity
-from swayless.design.robust.unity import widest
 from swayless.plant import Band, pendulum_frequency_hz, pendulum_mode
 from swayless.report import PlottedShaper, bank_figure, figure_bytes, response_figure, sensitivity_figure
 
@@ -55,13 +53,13 @@ def held_ft(shaper: Shaper) -> tuple[float, float]:
 
 def fixed_duration_row(start_ft: float, impulses: int | None = None) -> Shaper:
     """Do steps 3 and 4 of the algorithm: 3.0 s, 5 %, from a length of rope on."""
-    low_hz = frequency_hz(start_ft)
-    if impulses is None:
-        return fixed_duration(DURATION_S, low_hz, tolerance=TOLERANCE, amplitudes="unity-magnitude").shaper
-    best = widest(DURATION_S * low_hz, 0.0, TOLERANCE, impulses)
-    band = Band(low_hz, low_hz * float(best.frequency[-1]))
-    guarantee = Guarantee(TOLERANCE, pendulum_mode(start_ft * FOOT_M), band, best.worst)
-    return Shaper(best.times / low_hz, best.amplitudes, "fd", guarantee, "Kriikku et al. (1997), section III")
+    return fixed_duration(
+        DURATION_S,
+        frequency_hz(start_ft),
+        tolerance=TOLERANCE,
+        amplitudes="unity-magnitude",
+        impulses=impulses,
+    ).shaper
 
 
 def algorithm_rows(impulses: int | None = None) -> list[Shaper]:
