@@ -113,6 +113,55 @@ def _dense_program(duration: float, ratio: float, damping_ratio: float, bounded:
     return float(result.fun)
 
 
+@pytest.mark.parametrize(("ratio", "tolerance"), [(1.3, 0.02), (2.0, 0.05), (3.0, 0.1)])
+def test_an_undamped_program_on_a_grid_brackets_the_optimum_to_a_thousandth(
+    ratio: float, tolerance: float
+) -> None:
+    design = specified_insensitivity(Band(1.0, ratio), tolerance=tolerance)
+    own = design.shaper.times_s
+    # The grid holds the design's own times, so that it cannot leave more; 801 frequencies see all but 1e-4.
+    least = _undamped_program(np.union1d(np.linspace(0.0, own[-1], 201), own), ratio)
+    assert tolerance * (1.0 - 1e-3) <= least <= tolerance * (1.0 + 1e-6)
+    shorter = own * design.lower_bound_s / own[-1] * 0.999
+    assert _undamped_program(np.union1d(np.linspace(0.0, shorter[-1], 201), shorter), ratio) > tolerance
+
+
+def _undamped_program(times: NDArray[np.float64], ratio: float) -> float:
+    """Least worst residual of positive symmetric amplitudes, whose vibration seen from the middle is real."""
+    frequency = np.linspace(1.0, ratio, 801)
+    seen = np.cos(2.0 * np.pi * np.multiply.outer(frequency, times - times[-1] / 2.0))
+    limits = np.vstack([seen, -seen])
+    limits = np.hstack([limits, -np.ones((len(limits), 1))])
+    cost, whole = np.append(np.zeros(times.size), 1.0), np.append(np.ones(times.size), 0.0)
+    result = linprog(cost, A_ub=limits, b_ub=np.zeros(len(limits)), A_eq=whole[np.newaxis], b_eq=[1.0])
+    return float(result.fun)
+
+
+def test_several_bands_are_held_by_one_shaper_and_overlapping_ones_are_one() -> None:
+    bands = [Band(0.8, 1.0), Band(0.2, 0.25)]
+    design = specified_insensitivity(bands)
+    assert design.shaper.guarantee.bands == (bands[1], bands[0])
+    assert max(worst_residual(design.shaper, band) for band in bands) <= 0.05 * TOUCH
+    assert 0.0 < design.gap_ratio < PROVED_GAP
+    merged = specified_insensitivity([Band(0.2, 0.3), Band(0.25, 0.4)])
+    assert merged.shaper.guarantee.bands == (Band(0.2, 0.4),)
+
+
+def test_a_given_number_of_impulses_is_kept_and_bounded_by_the_bounded_optimum() -> None:
+    band = Band(0.2, 0.27)
+    design = specified_insensitivity(band, amplitudes="unity-magnitude", impulses=5)
+    np.testing.assert_array_equal(design.shaper.amplitudes, [1.0, -1.0, 1.0, -1.0, 1.0])
+    free = specified_insensitivity(band, amplitudes="bounded")
+    assert design.lower_bound_s == pytest.approx(free.lower_bound_s, rel=1e-9)
+    assert design.shaper.duration_s > design.lower_bound_s
+
+
+def test_where_nothing_is_gained_the_least_residual_is_a_thousandth() -> None:
+    design = least_residual(9.0, Band(0.2, 0.203))
+    assert design.shaper.guarantee.tolerance == 1e-3
+    assert design.shaper.duration_s < 9.0
+
+
 def test_a_damping_range_is_held_at_every_damping_ratio_in_it() -> None:
     band = Band(0.2, 0.5)
     design = specified_insensitivity(band, damping_ratio=(0.0, 0.15))
