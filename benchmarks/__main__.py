@@ -1,11 +1,11 @@
 """Print every benchmark, ratios to peers measured in the same run: `python -m benchmarks`."""
 
-from benchmarks import commands, design, running
+from benchmarks import commands, design, robust, running
 
 
 def main() -> None:
     """Run every benchmark."""
-    for part in (design, running, commands):
+    for part in (design, robust, running, commands):
         for text in part.report():
             print(text)
 
