@@ -90,11 +90,22 @@ def proofs(shaper: ShaperRecord) -> Iterator[str]:
     if bound_s is None or shaper.amplitude_rule is None:
         return
     gap = f"the impulses are within {at_most(shaper.duration_s / bound_s - 1.0)} of that"
-    if shaper.taps is not None:
+    if shaper.taps is not None and _holds_all(shaper.taps.guarantee, shaper.guarantee):
         gap += f", the taps within {at_most(shaper.taps.duration_s / bound_s - 1.0)}"
     yield (
         f"proved: no {RIVALS[shaper.amplitude_rule]} holds this in {rounded_down(bound_s)} s or less; {gap}"
     )
+
+
+def _holds_all(taps: GuaranteeRecord, impulses: GuaranteeRecord) -> bool:
+    """Whether taps hold what the impulses do, so that the bound is one for them too."""
+    pairs = zip(_edges(taps), _edges(impulses), strict=True)
+    inside = all(low <= inner_low and inner_high <= high for (low, high), (inner_low, inner_high) in pairs)
+    return inside and taps.tolerance <= impulses.tolerance
+
+
+def _edges(guarantee: GuaranteeRecord) -> list[tuple[float, float]]:
+    return [guarantee.frequency_hz, *guarantee.further_frequency_hz]
 
 
 def _made_for(design: DesignFile) -> str:
