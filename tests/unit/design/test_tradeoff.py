@@ -198,7 +198,9 @@ def test_at_5_percent_families_hold_these_widths_and_take_these_knob_positions_f
     assert positions_needed(band, np.sqrt(10.0)) == positions
 
 
-@pytest.mark.parametrize(("family", "way_m"), [("zv", 1.59), ("zvd", 3.17), ("ei", 3.17), ("ei2", 4.76)])
+@pytest.mark.parametrize(
+    ("family", "way_m"), [("zv", 1.59), ("zvd", 3.17), ("ei", 3.17), ("ei2", 4.76), ("ei3", 6.34)]
+)
 def test_a_crane_at_1_m_s_with_10_m_of_rope_overtravels_so_far(family: str, way_m: float) -> None:
     assert overtravel_s(design_shaper(family, pendulum_mode(10.0))) == pytest.approx(way_m, abs=5e-3)
 
