@@ -65,8 +65,11 @@ class Abscissa:
 
     def span(self, shapers: Sequence[PlottedShaper]) -> Range:
         """Choose a range that shows every mode and held band with a margin beside them."""
-        top_hz = _HIGHEST_RATIO * max(shaper.guarantee.mode.frequency_hz for shaper in shapers)
-        bands = [shaper.guarantee.band for shaper in shapers]
+        bands = [band for shaper in shapers for band in shaper.guarantee.bands]
+        modes_hz = [shaper.guarantee.mode.frequency_hz for shaper in shapers]
+        # Bands of further modes were asked for and have ends: they are shown whole.
+        further_hz = [band.high_hz for shaper in shapers for band in shaper.guarantee.further_bands]
+        top_hz = max(_HIGHEST_RATIO * max(modes_hz), *further_hz, 0.0)
         band = Band(min(one.low_hz for one in bands), min(max(one.high_hz for one in bands), top_hz))
         low, high = self.interval(band)
         margin = _MARGIN_RATIO * (high - low)
@@ -91,8 +94,9 @@ class Abscissa:
         even = np.linspace(low, high, count)
         even_in_frequency = self.from_frequency_hz(np.linspace(first_hz, last_hz, count))
         guarantees = [shaper.guarantee for shaper in shapers]
-        marks_hz = [(g.mode.frequency_hz, g.band.low_hz, g.band.high_hz) for g in guarantees]
-        marks = self.from_frequency_hz(np.ravel(marks_hz))
+        modes_hz = [guarantee.mode.frequency_hz for guarantee in guarantees]
+        ends_hz = [end for g in guarantees for band in g.bands for end in (band.low_hz, band.high_hz)]
+        marks = self.from_frequency_hz(modes_hz + ends_hz)
         points = np.unique(np.concatenate([even, even_in_frequency, marks]))
         return points[(points >= low) & (points <= high)]
 

@@ -27,6 +27,8 @@ from swayless.report.style import TOLERANCE_LINE, figure_style, legend_beside, l
 
 Definition = Literal["kriikku", "magee"]
 
+_DAMPING_CURVES = 17  # of a range of damping ratios, whose worst is drawn
+
 METRES_PER_FOOT = 0.3048
 """Exact by definition: the international foot of 1959."""
 
@@ -60,7 +62,8 @@ def sensitivity_figure(
     Parameters
     ----------
     shapers : sequence of PlottedShaper
-        At least one, in the order of the legend. Each is drawn at the damping ratio of its own mode.
+        At least one, in the order of the legend. Each is drawn at the damping ratio that it
+        is promised for; of a range of them at the worst.
     over : {"frequency", "rope_length"}
         Axis: Hz, or the rope length in m with feet above.
     span : (low, high), optional
@@ -130,13 +133,18 @@ def draw_residuals(
     lines: list[Line2D] = []  # named to the legend one by one: it would leave a name like "_a" out
     for number, shaper in enumerate(shapers):
         mode = shaper.guarantee.mode
-        percent = 100.0 * residual(shaper.impulses, frequencies_hz, damping_ratio=mode.damping_ratio)
+        percent = 100.0 * np.max(
+            [residual(shaper.impulses, frequencies_hz, damping_ratio=ratio) for ratio in _dampings(shaper)],
+            axis=0,
+        )
         lines += axes.plot(points, percent, label=shaper.label, **line_style(number))
-        at_mode = 100.0 * residual(shaper.impulses, mode.frequency_hz, damping_ratio=mode.damping_ratio)
+        at_mode = 100.0 * max(
+            residual(shaper.impulses, mode.frequency_hz, damping_ratio=ratio) for ratio in _dampings(shaper)
+        )
         if points[0] <= abscissa.position(mode.frequency_hz) <= points[-1]:
             draw_mode(axes, abscissa.position(mode.frequency_hz), float(at_mode), clip_on=False)
     for tolerance in sorted({shaper.guarantee.tolerance for shaper in shapers}):
-        name = f"tolerance {100.0 * tolerance:g} %"
+        name = f"tolerance {100.0 * tolerance:.3g} %"
         lines.append(axes.axhline(100.0 * tolerance, label=name, linewidth=1.2, **TOLERANCE_LINE))
     lines.append(Line2D([], [], label="mode designed for", **MODE_MARKER))
     legend_beside(axes, lines)
@@ -144,6 +152,12 @@ def draw_residuals(
     axes.set_ylim(bottom=0.0)
     if abscissa.unit == "m":
         _add_feet(axes)
+
+
+def _dampings(shaper: PlottedShaper) -> list[float]:
+    """Damping ratios of which a curve shows the worst: those of the range that is promised."""
+    lowest, highest = shaper.guarantee.damping_ratios
+    return [lowest] if lowest == highest else np.linspace(lowest, highest, _DAMPING_CURVES).tolist()
 
 
 def show_near_tolerance(axes: Axes, shapers: Sequence[PlottedShaper]) -> None:

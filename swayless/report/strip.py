@@ -56,24 +56,26 @@ def name_lanes(axes: Axes, names: Sequence[str], remarks: Sequence[str]) -> None
 def draw_held_bands(
     axes: Axes, shapers: Sequence[PlottedShaper], abscissa: Abscissa, whole: Range | None = None
 ) -> list[Range]:
-    """Draw each design's held band as a bar, its mode as a diamond, and write the ends beside it.
+    """Draw each design's held bands as bars, its mode as a diamond, and write the ends beside it.
 
     With `whole`, one more bar shows that range, and in another colour the gaps that no band covers. They are
     returned.
     """
     names = [shaper.label for shaper in shapers]
-    intervals = [abscissa.interval(shaper.guarantee.band) for shaper in shapers]
-    gaps = [] if whole is None else uncovered(intervals, whole)
-    for lane, (shaper, interval) in enumerate(zip(shapers, intervals, strict=True)):
-        _draw_bar(axes, lane, interval, f"held-band-{lane + 1}", color=line_style(lane)["color"])
+    held = [[abscissa.interval(band) for band in shaper.guarantee.bands] for shaper in shapers]
+    gaps = [] if whole is None else uncovered([interval for lane in held for interval in lane], whole)
+    for lane, (shaper, intervals) in enumerate(zip(shapers, held, strict=True)):
+        for number, interval in enumerate(intervals):
+            name = f"held-band-{lane + 1}" + (f"-mode-{number + 1}" if number else "")
+            _draw_bar(axes, lane, interval, name, color=line_style(lane)["color"])
         draw_mode(axes, abscissa.position(shaper.guarantee.mode.frequency_hz), lane)
     if whole is not None:
         _draw_bar(axes, len(shapers), whole, "whole", color=GREY)
         names.append("range")
-        intervals.append(whole)
+        held.append([whole])
     for number, gap in enumerate(gaps, 1):
         _draw_bar(axes, len(shapers), gap, f"gap-{number}", color="white", edgecolor=ALARM, hatch="//////")
-    name_lanes(axes, names, [ends(interval, abscissa.unit) for interval in intervals])
+    name_lanes(axes, names, ["\n".join(ends(each, abscissa.unit) for each in lane) for lane in held])
     axes.set_xlabel(abscissa.label)
     return gaps
 
