@@ -83,7 +83,7 @@ def design_bank(
     else:
         ticked = TickRows(tick_s, rule.amplitudes, rule.impulses, damping_ratio)
         designs = [robust_design(made, tick_s) for made in _covered(bank, plant, ticked, switching, on_row)]
-    switches = [switching.place(_own_promise(design, contactor).high_hz) for design in designs[:-1]]
+    switches = [switching.place(design.promise.band.high_hz) for design in designs[:-1]]
     names = _names(bank, plant, switches)
     ropes_m = _ropes_m(plant, switching, switches)
     rows = tuple(map(partial(_row, bank), names, designs, ropes_m))
@@ -183,11 +183,6 @@ def _covered(
         next_start_hz=switching.next_start_hz,
         on_row=tell,
     )
-
-
-def _own_promise(design: RowDesign, contactor: bool) -> Band:
-    """Band by whose end the next row was placed: of a contactor's row, the ideal one."""
-    return design.shaper.guarantee.band if contactor else design.promise.band
 
 
 def _ropes_m(

@@ -14,6 +14,7 @@ from swayless.design.robust.ticks import (
     fixed_duration_on_ticks,
     specified_insensitivity_on_ticks,
 )
+from swayless.design.robust.whole_ticks import whole_tick_taps
 from swayless.machine.robust_row import RobustRow
 from swayless.machine.row_section import Row, RowSection
 
@@ -60,7 +61,7 @@ def design_of(row: Row, *, tick_s: float | None, contactor: bool) -> RowDesign:
         If there is no such shaper, or the tick is too coarse.
     """
     if isinstance(row, RowSection):
-        return _named(row, tick_s)
+        return _named(row, tick_s, contactor=contactor)
     if tick_s is None or (row.amplitudes == "unity-magnitude" and not contactor):
         return robust_design(_ideal(row), tick_s)
     return robust_design(_on_ticks(row, tick_s), tick_s)
@@ -86,13 +87,14 @@ def robust_design(made: RobustDesign | RobustTaps, tick_s: float | None) -> RowD
     return RowDesign(made.shaper, taps, made.lower_bound_s)
 
 
-def _named(row: RowSection, tick_s: float | None) -> RowDesign:
+def _named(row: RowSection, tick_s: float | None, *, contactor: bool) -> RowDesign:
     shaper = design_shaper(
         row.family, row.mode, tolerance=row.tolerance, order=row.order, delay_s=row.delay_s
     )
     if tick_s is None:
         return RowDesign(shaper, None, None)
-    return RowDesign(shaper, solve_on_grid(shaper, tick_s), None)
+    solve = whole_tick_taps if contactor else solve_on_grid
+    return RowDesign(shaper, solve(shaper, tick_s), None)
 
 
 def _ideal(row: RobustRow) -> RobustDesign:

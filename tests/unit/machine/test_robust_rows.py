@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from swayless.design import residual_vibration
+from swayless.errors import DesignError
 from swayless.machine import DesignFile, Machine, load_design, load_machine, save_text
 from swayless.machine.designing import design_machine, design_mode
 from swayless.machine.plant_section import DoublePendulum, rope_bands
@@ -162,3 +163,26 @@ def test_options_of_a_row_are_designed_without_a_machine(load) -> None:
     assert (design.plant.kind, design.plant.frequency_hz) == ("mode", (0.2, 0.3))
     assert design.shapers[0].guarantee.damping_ratio == (0.0, 0.02)
     assert design.shapers[0].taps is None
+
+
+@pytest.mark.parametrize(
+    "row", ['"si"\nrope_length = [7, 8]', '"fd"\nrope_length = 8\nduration = 3', '"um-zvd"\nrope_length = 6']
+)
+def test_a_contactor_drive_is_only_asked_for_0_or_full_speed_and_its_promise_holds(load, row: str) -> None:
+    crane = CRANE.replace("[controller]", "[drive]\ncontactor = true\n[controller]")
+    design = design_machine(load(crane.replace('"si"\n', f"{row}\n")))
+    (taps,) = stored_taps(design)
+    assert set(np.cumsum(taps.amplitudes).tolist()) == {0.0, 1.0}
+    assert _dense_worst(design) <= design.shapers[0].guarantee.tolerance * (1.0 + 1e-9)
+
+
+def test_a_contactor_drive_that_cannot_follow_a_row_is_refused_with_what_would_do(load) -> None:
+    crane = CRANE.replace("[controller]", "[drive]\ncontactor = true\n[controller]").replace("0.02", "0.5")
+    with pytest.raises(DesignError, match=r'^crane\.toml: \[\[row\]\] 1 \("only"\): .*a finer tick'):
+        design_machine(load(crane + "rope_length = [4, 8]\ntolerance = 0.01\n"))
+
+
+def test_a_number_of_impulses_is_kept(load) -> None:
+    keys = 'rope_length = [6, 8]\namplitudes = "unity-magnitude"\nimpulses = 5\n'
+    (shaper,) = design_machine(load(CRANE + keys)).shapers
+    assert (shaper.impulses, shaper.amplitudes) == (5, (1.0, -1.0, 1.0, -1.0, 1.0))
