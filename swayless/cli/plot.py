@@ -256,13 +256,14 @@ def bank(design: DesignFile) -> Figure:
         raise DesignError(
             "the design is for one frequency, and a bank figure needs a range: plot sensitivity instead"
         )
+    switches_hz = () if design.bank is None else design.bank.switching_frequency_hz
     if plant.kind == "crane":
         from swayless.plant import pendulum_rope_length_m
 
         low_hz, high_hz = plant.frequency_hz
         lengths = plant.rope_length_m or (pendulum_rope_length_m(high_hz), pendulum_rope_length_m(low_hz))
-        return bank_figure(plotted(design), rope_length_m=lengths)
-    return bank_figure(plotted(design), frequency_hz=plant.frequency_hz)
+        return bank_figure(plotted(design), rope_length_m=lengths, switching_hz=switches_hz)
+    return bank_figure(plotted(design), frequency_hz=plant.frequency_hz, switching_hz=switches_hz)
 
 
 def response(design: DesignFile, row: int, press_s: float) -> Figure:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,8 +17,9 @@ from swayless.report.plotted import PlottedShaper
 from swayless.report.ranges import Range
 from swayless.report.sensitivity import draw_residuals, show_near_tolerance
 from swayless.report.strip import LANE_HEIGHT_IN, draw_held_bands, ends, name_lanes
-from swayless.report.style import ALARM, figure_style, line_style, new_figure, settle
+from swayless.report.style import ALARM, INK, figure_style, line_style, new_figure, settle
 
+_SWITCH_LINE: dict[str, Any] = {"color": INK, "linewidth": 0.8, "linestyle": (0, (4, 3)), "zorder": 3.0}
 _STAIR_LANE_IN = 0.42
 _STAIR_HEIGHT = 0.62  # of a lane
 _EDGE_RATIO = 0.03  # of the range, shown on both sides of it
@@ -25,7 +27,11 @@ _REMARK_WIDTH = 90  # characters across the strip
 
 
 def bank_figure(
-    rows: Sequence[PlottedShaper], *, rope_length_m: Range | None = None, frequency_hz: Range | None = None
+    rows: Sequence[PlottedShaper],
+    *,
+    rope_length_m: Range | None = None,
+    frequency_hz: Range | None = None,
+    switching_hz: Sequence[float] = (),
 ) -> Figure:
     """Draw all rows of a machine over its range: their residuals, what they hold together, their steps.
 
@@ -37,6 +43,8 @@ def bank_figure(
         At least one, in the order of the knob.
     rope_length_m, frequency_hz : (low, high)
         The machine's range, 0 < low < high. Exactly one of the two.
+    switching_hz : sequence of float
+        Where one row hands over to the next, on whichever axis.
 
     Returns
     -------
@@ -70,6 +78,9 @@ def bank_figure(
         draw_residuals(curves, rows, abscissa, points)
         show_near_tolerance(curves, rows)
         _draw_coverage(curves, strip, rows, abscissa, whole)
+        for frequency in switching_hz:
+            for axes in (curves, strip):
+                axes.axvline(abscissa.position(frequency), gid="switch", **_SWITCH_LINE)
         _draw_stairs(stairs, rows)
         return settle(figure)
 

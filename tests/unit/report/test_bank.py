@@ -98,3 +98,10 @@ def test_exactly_one_range_must_be_given(ei: PlottedShaper, length_m: tuple[floa
 def test_a_falling_range_is_refused(ei: PlottedShaper) -> None:
     with pytest.raises(DesignError, match=r"rope length from 8\.0 to 3\.0 m: must be finite, > 0 and rise"):
         bank_figure([ei], rope_length_m=(8.0, 3.0))
+
+
+def test_switching_points_are_marked_on_curves_and_strip(ei: PlottedShaper) -> None:
+    panels = bank_figure([ei], rope_length_m=(3.0, 8.0), switching_hz=[0.22, 0.25]).axes
+    expected = ABSCISSAE["rope_length"].from_frequency_hz([0.22, 0.25]).tolist()
+    for axes in panels[:2]:
+        assert [line.get_xdata()[0] for line in axes.lines if line.get_gid() == "switch"] == expected  # type: ignore[index]

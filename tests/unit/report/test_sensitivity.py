@@ -11,6 +11,7 @@ from matplotlib.patches import Rectangle
 
 from swayless.design.residual import residual_vibration, vibration_error
 from swayless.errors import DesignError
+from swayless.plant import Band
 from swayless.report import PlottedShaper, sensitivity_figure
 from swayless.report.abscissa import ABSCISSAE, Over
 
@@ -118,3 +119,22 @@ def test_a_given_span_is_the_axis_and_shows_whole_curves(ei: PlottedShaper) -> N
 def test_no_designs_are_refused() -> None:
     with pytest.raises(DesignError, match="needs at least one design"):
         sensitivity_figure([])
+
+
+def test_bands_of_further_modes_have_bars_of_their_own(ei: PlottedShaper) -> None:
+    second = Band(0.74, 0.76)  # the third harmonic, which EI holds too
+    both = dataclasses.replace(ei, guarantee=dataclasses.replace(ei.guarantee, further_bands=(second,)))
+    curves, strip = sensitivity_figure([both]).axes
+    bar = _bar(strip, "held-band-1-mode-2")
+    assert (bar.get_x(), bar.get_width()) == pytest.approx((0.74, 0.02), rel=1e-12)
+    assert _bar(strip, "held-band-1").get_x() == ei.guarantee.band.low_hz
+    assert curves.get_xlim()[1] > second.high_hz
+    assert "0.7400 to 0.7600 Hz" in strip.texts[0].get_text()
+
+
+def test_of_a_damping_range_the_worst_is_drawn(ei: PlottedShaper) -> None:
+    ranged = dataclasses.replace(ei, guarantee=dataclasses.replace(ei.guarantee, highest_damping_ratio=0.1))
+    frequencies_hz, percent = _line(sensitivity_figure([ranged]).axes[0], "EI")
+    ends = [residual_vibration(ei.impulses, frequencies_hz, damping_ratio=ratio) for ratio in (0.0, 0.1)]
+    assert np.all(percent >= 100.0 * np.max(ends, axis=0))
+    assert np.any(percent > 100.0 * ends[0])
