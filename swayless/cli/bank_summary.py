@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from swayless.machine.bank_record import BankRecord
 
 
+VISIBLE = 1e-4
+"""Overlap from which it is worth telling, relative to where it is: rounding to ticks leaves less."""
+
+
 def print_bank(design: DesignFile, bank: BankRecord) -> None:
     """Print the tables of a bank.
 
@@ -55,9 +59,9 @@ def switching(bank: BankRecord) -> Iterator[str]:
     turns = ", ".join(
         f"{row} to {row + 1} at {place:.5g} {unit}" for row, place in enumerate(places, start=1)
     )
-    shared = (
-        f"both hold {min(overlaps):.4g} {unit} around it at least" if min(overlaps) else "bands meet there"
-    )
+    least = min(overlaps)
+    seen = least >= VISIBLE * max(places)
+    shared = f"both hold {least:.3g} {unit} there at least" if seen else "bands meet there"
     yield f"turn the knob from {turns}: {shared}"
 
 
@@ -68,7 +72,7 @@ def _row(shaper: ShaperRecord, bank: BankRecord, max_speed_m_s: float) -> list[s
     bound = "-" if shaper.lower_bound_s is None else rounded_down(shaper.lower_bound_s, 5)
     leaves = f"<= {at_most(held.worst_residual_ratio, 4)}"
     return [
-        interval(*ends),
+        interval(*ends, digits=5),
         leaves,
         f"{runs.duration_s:.5g}",
         bound,

@@ -81,7 +81,7 @@ def test_neighbours_overlap_by_the_hysteresis(run, yard):
     held = [shaper["taps"]["guarantee"]["rope_length_m"] for shaper in design["shapers"]]
     for (low_m, _), (_, high_m) in pairwise(held):
         assert high_m - low_m >= 0.1524 - 1e-6
-    assert "around it at least" in run("design", "bank", yard.name, "--hysteresis", "6 in").out
+    assert "there at least" in run("design", "bank", yard.name, "--hysteresis", "6 in").out
 
 
 def test_rows_of_a_file_are_left_aside_for_a_bank_of_options(run, gantry):
