@@ -19,6 +19,8 @@ RANGE_OPTIONS = ("--band", "--rope-length", "--damping")
 _NO_OPTION = re.compile(r"[^-].*|-[0-9.].*", re.DOTALL)
 # A hyphen separates what stands around it unless it is the sign of a number or of its exponent.
 _SEPARATOR = re.compile(r"\s+to\s+|\s*(?:\.\.|:)\s*|(?<=[0-9a-z%])(?<![0-9.][eE])\s*-\s*")
+_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_BARE, _WITH_UNIT = re.compile(_NUMBER), re.compile(rf"{_NUMBER}\s*([A-Za-z%]+)")
 
 
 class RangeCommand(TyperCommand):
@@ -51,12 +53,17 @@ def joined(args: Sequence[str]) -> list[str]:
 
 
 def ends(text: str) -> str | list[str]:
-    """Split a range into its ends; a single value stays as it is.
+    """Split a range into its ends, for both of which a unit counts that stands once; a single value stays.
 
     Examples
     --------
     >>> ends("9 ft to 29 ft"), ends("0-0.05"), ends("0..5 %"), ends("1e-3 to -2"), ends("-1")
-    (['9 ft', '29 ft'], ['0', '0.05'], ['0', '5 %'], ['1e-3', '-2'], '-1')
+    (['9 ft', '29 ft'], ['0', '0.05'], ['0 %', '5 %'], ['1e-3', '-2'], '-1')
     """
     parts = _SEPARATOR.split(text.strip())
-    return parts if len(parts) > 1 else text
+    if len(parts) < 2:
+        return text
+    units = {found[1] for part in parts if (found := _WITH_UNIT.fullmatch(part))}
+    bare = [bool(_BARE.fullmatch(part)) for part in parts]
+    shared = f" {units.pop()}" if len(units) == 1 else ""
+    return [part + shared if is_bare else part for part, is_bare in zip(parts, bare, strict=True)]

@@ -70,6 +70,12 @@ def test_a_range_of_damping_ratios_may_be_written_in_many_ways(run, text):
         assert left.max() <= 0.05 * (1.0 + 1e-6)  # as above
 
 
+@pytest.mark.parametrize("ropes", [("9", "29 ft"), ("9ft", "29"), ("9-29ft",), ("29 ft to 9",)], ids=" ".join)
+def test_a_unit_that_stands_once_counts_for_both_ends(run, ropes):
+    held = told(run, "si", "--rope-length", *ropes)["shapers"][0]["guarantee"]
+    assert held["rope_length_m"] == [2.7432, 8.8392]
+
+
 def test_a_range_of_damping_ratios_is_printed(run):
     out = run("design", "si", "--band", 1, 1.2, "--damping", 0, 0.05).out
     assert out.startswith("si for 1.0 to 1.2 Hz, damping ratio 0 to 0.05, positive amplitudes\n")
