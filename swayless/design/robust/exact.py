@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+import numpy as np
+
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.robust.demand import WIDEST_RATIO
 from swayless.design.robust.guess import cleaned, first_guess
@@ -122,7 +124,7 @@ def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, r
     shorter = [replace(optimum, times=optimum.times * (1.0 - gap)) for gap in _GAPS]
     for each in shorter:
         best = settle(each, lines, Goal.WORST, rule, thorough=True)
-        if best is not None and certificate_of(best).bound(rule) > tolerance:
+        if best is not None and _on_lines(best, lines) and certificate_of(best).bound(rule) > tolerance:
             return each.duration
     for each in shorter[2:]:  # where another structure holds just below the optimum's duration
         bound, _ = residual_range(lines, each.duration, tolerance, rule)
@@ -133,6 +135,15 @@ def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, r
         f"{_GAPS[-1]:.2%} of the shortest: {shorter[-1].duration:.6g} periods leave at least {bound:.6g}, "
         f"not {tolerance:.6g}; a tolerance a little off has a proof"
     )
+
+
+def _on_lines(optimum: Optimum, lines: Sequence[Line]) -> bool:
+    """Whether every peak lies on a line: what lies outside is not asked for, and proves nothing."""
+    held = np.zeros(optimum.frequency.size, dtype=np.bool_)
+    for line in lines:
+        inside = (optimum.frequency >= line.low) & (optimum.frequency <= line.high)
+        held |= inside & (optimum.turn == line.turn)
+    return bool(held.all())
 
 
 @dataclass
