@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from swayless.codegen.render import GeneratedFile
 from swayless.controller.number import NumberType
 from swayless.errors import VerificationError
-from swayless.verify.stimulus import output_dtype
+from swayless.verify.records import output_dtype
 from swayless.verify.toolchain import Compiler
 
 RUN_TIMEOUT_S = 300.0

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from swayless.controller.command_shaper import CommandShaper, ShaperInput
 from swayless.controller.settings import ShaperSettings
-from swayless.verify.stimulus import output_dtype
+from swayless.verify.records import output_dtype
 
 
 def run_reference(settings: ShaperSettings, inputs: NDArray[np.void]) -> NDArray[np.void]:

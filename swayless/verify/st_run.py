@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swayless.controller.number import NumberType
-from swayless.verify.stimulus import output_dtype
+from swayless.verify.records import output_dtype
 from swayless.verify.structured_text import load
 
 PINS = {

@@ -8,16 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from swayless.controller.number import NumberType
 from swayless.controller.settings import ShaperSettings
-
-COMMAND_TYPES: dict[str, Any] = {"double": np.float64, "float": np.float32, "int32": np.int32}
-"""Array type of a command in each number type."""
+from swayless.verify.builder import Builder
+from swayless.verify.rope_stimulus import hoisted, misread
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,76 +33,7 @@ class Stimulus:
     inputs: NDArray[np.void]
 
 
-def input_dtype(settings: ShaperSettings) -> np.dtype[np.void]:
-    """Record type of the inputs of a block, laid out as the C structure is."""
-    real = COMMAND_TYPES[settings.number.name]
-    fields = [
-        ("enable", np.bool_),
-        ("emergency_stop", np.bool_),
-        ("quick_stop", np.bool_),
-        ("command", real),
-        ("selector", np.uint8),
-    ]
-    if settings.rope is not None:
-        fields += [("rope_length", real), ("hoist_speed", real), ("rope_length_valid", np.bool_)]
-    return np.dtype(fields, align=True)
-
-
-def output_dtype(number: NumberType) -> np.dtype[np.void]:
-    """Record type of the outputs, laid out as the C structure is."""
-    real = COMMAND_TYPES[number.name]
-    return np.dtype(
-        [
-            ("reference", real),
-            ("stop_distance", real),
-            ("stop_time_s", real),
-            ("stop_time_ticks", np.uint32),
-            ("residual_bound", real),
-            ("row", np.uint8),
-            ("settled", np.bool_),
-            ("active", np.bool_),
-            ("error", np.bool_),
-            ("status", np.uint32),
-        ],
-        align=True,
-    )
-
-
-class _Builder:
-    """Makes stimuli for one block from one seeded generator."""
-
-    def __init__(self, settings: ShaperSettings, seed: int) -> None:
-        self.settings = settings
-        self.random = np.random.default_rng(seed)
-        self.rows = len(settings.bank.rows)
-        self.last = settings.longest_delay_ticks
-        limits = settings.limits
-        slowest = min(limits.acceleration_step, limits.deceleration_step)
-        self.ramp = int(limits.max_command / slowest) + 1
-        self.max = float(limits.max_command)
-
-    def blank(self, ticks: int) -> NDArray[np.void]:
-        inputs = np.zeros(ticks, dtype=input_dtype(self.settings))
-        inputs["enable"] = True
-        inputs["selector"] = 1
-        return inputs
-
-    def commands(self, values: ArrayLike) -> NDArray[Any]:
-        """Fractions of the maximum as commands."""
-        scaled = np.asarray(values, dtype=np.float64) * self.max
-        if self.settings.number.is_integer:
-            return np.rint(scaled).astype(np.int32)
-        return scaled.astype(COMMAND_TYPES[self.settings.number.name])
-
-    def held(self, ticks: int, values: NDArray[Any], longest: int) -> NDArray[Any]:
-        """Values held for random times up to `longest` ticks."""
-        lengths = self.random.integers(1, longest + 1, size=ticks // max(1, longest // 2) + 2)
-        positions = np.repeat(self.random.integers(0, len(values), size=lengths.size), lengths)
-        positions = np.resize(positions, ticks)
-        return values[positions]
-
-
-def step_and_release(build: _Builder) -> Stimulus:
+def step_and_release(build: Builder) -> Stimulus:
     """Step to full speed and release, on every row, both ways."""
     leg = build.ramp * 2 + build.last * 3 + 10
     parts = []
@@ -118,7 +46,7 @@ def step_and_release(build: _Builder) -> Stimulus:
     return Stimulus("steps", np.concatenate(parts))
 
 
-def jogs(build: _Builder) -> Stimulus:
+def jogs(build: Builder) -> Stimulus:
     """Short presses of every length up to twice the longest delay, on every row."""
     parts = []
     longest = 2 * (build.ramp + build.last)
@@ -131,7 +59,7 @@ def jogs(build: _Builder) -> Stimulus:
     return Stimulus("pendant jogs", np.concatenate(parts))
 
 
-def joystick(build: _Builder, ticks: int) -> Stimulus:
+def joystick(build: Builder, ticks: int) -> Stimulus:
     """Move a random joystick: wandering, held, noisy; out of range at times."""
     inputs = build.blank(ticks)
     wander = np.clip(np.cumsum(build.random.normal(0.0, 0.03, ticks)), -1.2, 1.2)
@@ -142,7 +70,7 @@ def joystick(build: _Builder, ticks: int) -> Stimulus:
     return Stimulus("random joystick", inputs)
 
 
-def knob(build: _Builder, ticks: int) -> Stimulus:
+def knob(build: Builder, ticks: int) -> Stimulus:
     """Turn the knob every few ticks, to invalid positions too, and toggle enable."""
     inputs = build.blank(ticks)
     levels = build.held(ticks, np.array([0.0, 1.0, -1.0, 0.3]), 2 * (build.last + build.ramp))
@@ -152,7 +80,7 @@ def knob(build: _Builder, ticks: int) -> Stimulus:
     return Stimulus("knob", inputs)
 
 
-def stops(build: _Builder, ticks: int) -> Stimulus:
+def stops(build: Builder, ticks: int) -> Stimulus:
     """Quick and emergency stops of every length, at any moment, alone and together."""
     inputs = build.blank(ticks)
     levels = build.held(ticks, np.array([0.0, 0.0, 1.0, -1.0, 0.4]), build.last + build.ramp)
@@ -164,19 +92,10 @@ def stops(build: _Builder, ticks: int) -> Stimulus:
     return Stimulus("stops", inputs)
 
 
-def bad_input(build: _Builder, ticks: int) -> Stimulus:
+def bad_input(build: Builder, ticks: int) -> Stimulus:
     """Commands that are not finite, huge, tiny or negative zero; everything flaps at once."""
     inputs = build.blank(ticks)
-    if build.settings.number.is_integer:
-        odd = np.array([0, 1, -1, 2**31 - 1, -(2**31), 2**28, -(2**28), int(build.max) // 2], dtype=np.int32)
-    else:
-        kind = COMMAND_TYPES[build.settings.number.name]
-        info = np.finfo(kind)
-        odd = np.array(
-            [0.0, -0.0, np.nan, np.inf, -np.inf, info.max, -info.max, info.tiny, build.max / 2, -build.max],
-            dtype=kind,
-        )
-    inputs["command"] = build.held(ticks, odd, 60)
+    inputs["command"] = build.held(ticks, build.odd(build.max), 60)
     inputs["selector"] = build.random.integers(0, 256, ticks)
     inputs["enable"] = build.held(ticks, np.array([True, False]), 100)
     inputs["quick_stop"] = build.held(ticks, np.array([False] * 9 + [True]), 50)
@@ -199,13 +118,17 @@ def stimuli(settings: ShaperSettings, *, ticks: int, seed: int = 1) -> Iterator[
     Yields
     ------
     Stimulus
-        Steps, pendant jogs, random joystick, knob, stops and bad input.
+        Steps, pendant jogs, random joystick, knob, stops and bad input; where the rope is measured, on a rope
+        that is held still, then some of them while it is hoisted and while it is read wrongly.
     """
-    build = _Builder(settings, seed)
-    yield step_and_release(build)
-    yield jogs(build)
-    for random_stimulus in (joystick, knob, stops, bad_input):
-        yield random_stimulus(build, ticks)
+    build = Builder(settings, seed)
+    made = [step_and_release(build), jogs(build)]
+    made += [random_stimulus(build, ticks) for random_stimulus in (joystick, knob, stops, bad_input)]
+    yield from made
+    if settings.rope is not None:
+        for stimulus in made[:5]:
+            yield Stimulus(f"{stimulus.name}, hoisting", hoisted(build, stimulus.inputs))
+        yield Stimulus("rope read wrongly", misread(build, hoisted(build, joystick(build, ticks).inputs)))
 
 
 def soak(settings: ShaperSettings, *, ticks: int, seed: int = 2) -> Stimulus:
@@ -220,8 +143,10 @@ def soak(settings: ShaperSettings, *, ticks: int, seed: int = 2) -> Stimulus:
     seed : int
         Seed.
     """
-    build = _Builder(settings, seed)
+    build = Builder(settings, seed)
     inputs = joystick(build, ticks).inputs
     inputs["quick_stop"] = build.held(ticks, np.array([False] * 199 + [True]), 50)
     inputs["emergency_stop"] = build.held(ticks, np.array([False] * 199 + [True]), 50)
+    if settings.rope is not None:
+        inputs = misread(build, hoisted(build, inputs), one_in=50)
     return Stimulus(f"soak of {ticks} ticks", inputs)

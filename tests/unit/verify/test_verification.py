@@ -12,7 +12,8 @@ from swayless.machine.designing import design_machine
 from swayless.machine.running import shaper_settings
 from swayless.verify import find_compiler, verify_block
 from swayless.verify.comparison import compare
-from swayless.verify.stimulus import input_dtype, soak, stimuli
+from swayless.verify.records import input_dtype
+from swayless.verify.stimulus import soak, stimuli
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 
