@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from swayless.codegen.c_clock import CClock
 from swayless.codegen.c_state import CState
 from swayless.codegen.c_tables import CTables
 from swayless.codegen.c_types import CTypes
+from swayless.codegen.clock_names import ClockNames, clock_names
 from swayless.codegen.features import Features, features_of
 from swayless.codegen.names import check_c_names
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
@@ -105,15 +107,20 @@ class CModel:
         """Constants, ramps and tables of the block."""
         return CTables(self.settings, self.types, self.features)
 
+    @property
+    def names(self) -> ClockNames:
+        """Names of what the clock counts."""
+        return clock_names(self.settings)
+
+    @cached_property
+    def clock(self) -> CClock:
+        """What depends on the clock and on a measured rope."""
+        return CClock(self.settings, self.types)
+
     @cached_property
     def features(self) -> Features:
         """Parts of the law in use."""
         return features_of(self.settings)
-
-    @property
-    def filter_template(self) -> str:
-        """Template of the tap filter for the number type."""
-        return "c/filter_int32.c.j2" if self.is_integer else "c/filter_float.c.j2"
 
     @property
     def glide_template(self) -> str:
@@ -131,11 +138,6 @@ class CModel:
         return len(self.settings.bank.rows)
 
     @property
-    def ring_length(self) -> int:
-        """Cells of the ring."""
-        return self.settings.longest_delay_ticks + 1
-
-    @property
     def design_id(self) -> str:
         """First 32 bits of the design's SHA-256."""
         return self.origin.design_sha256[:8]
@@ -144,7 +146,8 @@ class CModel:
     def error_mask(self) -> str:
         """Bits that raise `error`."""
         names = [bit.name for bit in self.settings.status_bits if bit & ERROR_BITS]
-        return "(" + " | ".join(f"{self.macro}_SHAPER_{name}" for name in names) + ")"
+        mark = "\n        | " if self.features.has_rope else " | "
+        return "(" + mark.join(f"{self.macro}_SHAPER_{name}" for name in names) + ")"
 
     @property
     def step_rounding_doc(self) -> str:
@@ -162,11 +165,18 @@ class CModel:
         facts = [
             f"Call {self.name}_shaper_init() once, then {self.name}_shaper_step() once per tick.",
             f"State: {self.state.ram_bytes} bytes at most, owned by the caller; no heap, globals or libm.",
-            f"Work per tick: the taps of the row in use, at most {self.most_taps}; none when settled.",
+            f"Work per tick: {self._work}.",
         ]
         if not self.is_integer:
             facts += ["Bit equality with the reference needs -ffp-contract=off, and no -ffast-math."]
         return [f" {line}".rstrip() for line in header_lines(self.settings, self.origin, facts)]
+
+    @property
+    def _work(self) -> str:
+        taps = f"the taps of the row in use, at most {self.most_taps}"
+        if self.features.has_phase_clock:
+            return f"{taps}, and at most {self.clock.most_cells} cells of each; none settled on a still rope"
+        return f"{taps}; none when settled"
 
     @property
     def source_provenance(self) -> list[str]:

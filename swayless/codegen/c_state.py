@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from swayless.codegen.c_phase_state import phase_members, phase_ring, ring_length
+from swayless.codegen.c_rope import rope_members
 from swayless.codegen.c_types import CField, CTypes
+from swayless.codegen.clock_names import clock_names
 from swayless.codegen.features import Features
 from swayless.codegen.interface import Pin, input_pins, output_pins
 from swayless.controller.settings import ShaperSettings
@@ -37,10 +40,13 @@ class CState:
 
     def __init__(self, settings: ShaperSettings, types: CTypes, features: Features) -> None:
         self._types = types
-        self._ring_length = settings.longest_delay_ticks + 1
+        self._settings, self._clock = settings, clock_names(settings)
+        self._last = ring_length(settings) - 1
         self.inputs = [self._member(pin) for pin in input_pins(settings)]
         self.outputs = [self._member(pin) for pin in output_pins(settings)]
-        self.members = [*self._sums(), *self._commands(features), *self._buffers(), *self._flags(features)]
+        rope = [] if settings.rope is None else rope_members(settings.rope, types)
+        clock = self._sums() if settings.clock is None else phase_members(settings, types)
+        self.members = [*clock, *self._commands(features), *rope, *self._buffers(), *self._flags(features)]
 
     def _member(self, pin: Pin) -> CField:
         types = {"bool": "bool", "real": self._types.real, "row": "uint8_t", "word": "uint32_t"}
@@ -56,7 +62,7 @@ class CState:
 
     def _commands(self, features: Features) -> list[CField]:
         names = [
-            ("base", "command of the last rest"),
+            ("base", self._base_doc),
             ("target", "target of the ramp"),
             ("command", "ramped command"),
             ("reference", "last reference"),
@@ -65,24 +71,34 @@ class CState:
             names.append(("held", "command held until it changes by the resolution"))
         return [CField(self._types.real, name, doc, "", self._types.literal(0)) for name, doc in names]
 
+    @property
+    def _base_doc(self) -> str:
+        return "command of the last rest" if self._settings.clock is None else "command shaped last"
+
     def _buffers(self) -> list[CField]:
-        ring = f"[{self._types.name.upper()}_SHAPER_RING]"
-        last = f"{self._ring_length - 1}u"
+        clock, still = self._clock, f"{self._settings.longest_lag}u"
+        still_doc = f"{clock.unit} without change, up to the longest {clock.lag}"
         return [
             CField(self._types.input, "input", "last inputs"),
             CField(self._types.output, "output", "last outputs"),
-            CField(self._types.real, "ring", "last ramped commands", ring),
-            CField("uint32_t", "head", "cell of the newest command", "", last),
-            CField("uint32_t", "still_ticks", "ticks without change, up to the longest delay", "", last),
+            *self._ring(),
+            CField("uint32_t", "head", "cell of the newest command", "", f"{self._last}u"),
+            CField("uint32_t", clock.c_still, still_doc, "", still),
             CField("uint32_t", "status", "status bits of this tick", "", "0u"),
             CField("uint8_t", "row", "row in use", "", "0u"),
             CField("uint8_t", "selected_row", "last valid selector", "", "0u"),
             CField("uint8_t", "wanted_row", "row that takes over when settled", "", "0u"),
         ]
 
+    def _ring(self) -> list[CField]:
+        if self._settings.clock is not None:
+            return phase_ring(self._settings, self._types)
+        ring = f"[{self._types.name.upper()}_SHAPER_RING]"
+        return [CField(self._types.real, "ring", "last ramped commands", ring, elements=self._last + 1)]
+
     def _flags(self, features: Features) -> list[CField]:
         names = [
-            ("lapped", "the ring is full of commands since the last rest"),
+            self._running_flag(),
             ("foretold", "settled, and the stop is foretold"),
             ("idle", "the last tick began and ended settled"),
             ("zero_commanded", "the command is a valid 0"),
@@ -92,7 +108,14 @@ class CState:
         ]
         if features.has_inching:
             names.append(("inching", "a small command passes unshaped"))
+        if features.has_rope:
+            names.append(("rope_still", "the last reading of the rope changed nothing"))
         return [CField("bool", name, doc, "", "false") for name, doc in names]
+
+    def _running_flag(self) -> tuple[str, str]:
+        if self._settings.clock is None:
+            return "lapped", "the ring is full of commands since the last rest"
+        return "running", "parts of changes may be under way"
 
     @property
     def ram_bytes(self) -> int:
@@ -104,7 +127,7 @@ class CState:
         size, widest = 0, 1
         for member in members:
             width, alignment = self._size_of(member.c_type)
-            size = -(-size // alignment) * alignment + width * (self._ring_length if member.c_array else 1)
+            size = -(-size // alignment) * alignment + width * member.elements
             widest = max(widest, alignment)
         return -(-size // widest) * widest, widest
 

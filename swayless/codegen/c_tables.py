@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from swayless.codegen.c_phase_tables import phase_constants, phase_tables
+from swayless.codegen.c_rope import rope_constants
 from swayless.codegen.c_types import CConstant, CField, CTable, CTypes, c_table
+from swayless.codegen.clock_names import clock_names
 from swayless.codegen.features import Features
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.ramp import Glider
@@ -31,9 +34,10 @@ class CTables:
         """Scalar constants, each with its origin."""
         settings, limits = self._settings, self._settings.limits
         real, symbol, units = self._types.real, limits.units, OutputUnits(self._settings)
+        clock = clock_names(settings)
         constants = [
             CConstant(
-                "uint32_t", "LAST_TICKS", f"{settings.longest_delay_ticks}u", "longest delay of any row"
+                "uint32_t", clock.c_last, f"{settings.longest_lag}u", f"longest {clock.lag} of any row"
             ),
             CConstant(real, "MAX_COMMAND", self._types.literal(limits.max_command), f"{symbol}: max_speed"),
         ]
@@ -50,9 +54,9 @@ class CTables:
             constants += (
                 [CConstant(real, name, self._types.literal(value), f"{symbol}: {key}")] if used else []
             )
-        return constants + (
-            self._integer_constants(units) if self._is_integer else self._float_constants(units)
-        )
+        constants += self._integer_constants(units) if self._is_integer else self._float_constants(units)
+        constants += rope_constants(settings.rope, self._types) if settings.rope is not None else []
+        return constants + (phase_constants(settings, self._types) if settings.clock is not None else [])
 
     def _float_constants(self, units: OutputUnits) -> list[CConstant]:
         real = self._types.real
@@ -72,10 +76,7 @@ class CTables:
         half = (1 << units.distance_shift) >> 1
         return [
             CConstant("int64_t", "ONE", f"INT64_C({1 << 30})", "amplitude 1, over 2^30"),
-            CConstant(
-                "int64_t", "ROUNDING", f"INT64_C({(1 << 62) + (1 << 29)})", "2^62 makes positive, 2^29 rounds"
-            ),
-            CConstant("int64_t", "ROUNDING_WHOLE", f"INT64_C({1 << 32})", "2^62 over 2^30"),
+            *(self._rounding_constants() if self._settings.clock is None else []),
             CConstant(
                 "uint64_t",
                 "DISTANCE_SCALE",
@@ -87,6 +88,13 @@ class CTables:
                 "uint32_t", "DISTANCE_SHIFT", f"{units.distance_shift}u", "the scale is 2 to this power"
             ),
             CConstant("uint64_t", "TIME_SCALE", f"UINT64_C({units.time_scale})", "s per tick, over 2^32"),
+        ]
+
+    def _rounding_constants(self) -> list[CConstant]:
+        rounding = (1 << 62) + (1 << 29)
+        return [
+            CConstant("int64_t", "ROUNDING", f"INT64_C({rounding})", "2^62 makes positive, 2^29 rounds"),
+            CConstant("int64_t", "ROUNDING_WHOLE", f"INT64_C({1 << 32})", "2^62 over 2^30"),
         ]
 
     @property
@@ -122,7 +130,7 @@ class CTables:
     @property
     def tables(self) -> list[CTable]:
         """Tables of taps and rows; row 0 is one tap of amplitude 1 without delay."""
-        rows = self._settings.row_tables
+        rows, clock = self._settings.row_tables, clock_names(self._settings)
         real, scale = self._types.real, " over 2^30" if self._is_integer else ""
         firsts = [sum(len(r.amplitudes) for r in rows[:i]) for i in range(len(rows) + 1)]
         by_row = [[self._types.literal(a) for a in r.amplitudes] for r in rows]
@@ -132,14 +140,16 @@ class CTables:
             ),
             c_table(
                 "uint32_t",
-                "DELAY_TICKS",
-                [[f"{d}u" for d in r.lags] for r in rows],
-                "delay of each tap, by row",
+                clock.c_lags,
+                [[f"{lag}u" for lag in r.lags] for r in rows],
+                f"{clock.lag} of each tap, by row",
             ),
             c_table(
                 real, "AMPLITUDE", by_row, f"amplitude of each tap, by row; each row sums to exactly 1{scale}"
             ),
-            c_table("uint32_t", "TAIL_TICKS", [[f"{r.tail}u" for r in rows]], "longest delay of each row"),
+            c_table(
+                "uint32_t", clock.c_tails, [[f"{r.tail}u" for r in rows]], f"longest {clock.lag} of each row"
+            ),
             *self._moment_tables(),
             c_table(
                 real,
@@ -153,16 +163,21 @@ class CTables:
             tables.append(
                 c_table("bool", "WAITS", waits, "rows with negative amplitudes: commands wait for rest")
             )
-        return tables
+        return tables + (
+            phase_tables(self._settings, self._types) if self._settings.clock is not None else []
+        )
 
     def _moment_tables(self) -> list[CTable]:
-        doc = "sum of amplitude times delay of each row: references to come per unit of a steady command"
+        clock = clock_names(self._settings)
+        doc = (
+            f"sum of amplitude times {clock.lag} of each row: references to come per unit of a steady command"
+        )
         moments = [row.moment for row in self._settings.row_tables]
         if not self._is_integer:
             values = [self._types.literal(self._settings.number.scalar(float(m))) for m in moments]
-            return [c_table(self._types.real, "MOMENT_TICKS", [values], doc)]
+            return [c_table(self._types.real, clock.c_moments, [values], doc)]
         split = [divmod(int(m * (1 << 30)), 1 << 30) for m in moments]
         return [
-            c_table("int32_t", "MOMENT_TICKS", [[str(w) for w, _ in split]], doc + ", whole ticks"),
+            c_table("int32_t", clock.c_moments, [[str(w) for w, _ in split]], f"{doc}, whole {clock.unit}"),
             c_table("int32_t", "MOMENT_Q30", [[str(f) for _, f in split]], "what is left of each, over 2^30"),
         ]

@@ -74,6 +74,7 @@ class CField:
     c_doc: str
     c_array: str = ""
     c_initial: str = ""
+    elements: int = 1
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,56 @@
+"""What the C block knows of a measured rope, and what it remembers. Not for: the phase clock."""
+
+from __future__ import annotations
+
+from swayless.codegen.c_types import CConstant, CField, CTypes
+from swayless.controller.rope import MOST_HELD_TICKS, RopeSettings
+
+FROZEN_SCALE = 1_000_000
+"""In int32 the way of a frozen rope is in mm and microseconds."""
+
+
+def rope_constants(rope: RopeSettings, types: CTypes) -> list[CConstant]:
+    """List the constants of a measured rope.
+
+    Parameters
+    ----------
+    rope : RopeSettings
+        What the block knows of it.
+    types : CTypes
+        Types of the block.
+    """
+    whole = types.number.is_integer
+    length, tick, way = ("mm", "us", "mm times 10^6") if whole else ("m", "s", "m")
+    frozen = rope.jump * FROZEN_SCALE if whole else rope.jump
+    constants = [
+        ("SHORTEST_ROPE", rope.shortest, f"{length}: rope_length"),
+        ("LONGEST_ROPE", rope.longest, f"{length}: rope_length"),
+        ("HOIST_SPEED", rope.hoist_speed, f"{length}/s: hoist_speed"),
+        ("ROPE_JUMP", rope.jump, f"{length}: difference of two readings that is always taken"),
+        ("ROPE_WAY_PER_TICK", rope.way_per_tick, f"{length}: hoist_speed times tick"),
+        ("ROPE_TICK", rope.tick_s, f"{tick}: tick"),
+        ("FROZEN_WAY", frozen, f"{way}: a length that stays for so long a way is frozen"),
+    ]
+    held = CConstant(
+        "uint32_t", "MOST_HELD_TICKS", f"{MOST_HELD_TICKS}u", "by then the hoist may be anywhere"
+    )
+    return [*(CConstant(types.real, name, types.literal(value), doc) for name, value, doc in constants), held]
+
+
+def rope_members(rope: RopeSettings, types: CTypes) -> list[CField]:
+    """List what is remembered of a measured rope.
+
+    Parameters
+    ----------
+    rope : RopeSettings
+        What the block knows of it.
+    types : CTypes
+        Types of the block.
+    """
+    zero = types.literal(0)
+    return [
+        CField(types.sum, "unmoved", "way of the hoist while the length stayed", "", zero),
+        CField(types.real, "rope_length", "length believed", "", types.literal(rope.longest)),
+        CField(types.real, "hoist_speed", "hoist speed, clamped", "", zero),
+        CField("uint32_t", "held_ticks", "ticks for which no length was taken", "", "0u"),
+    ]
