@@ -86,7 +86,7 @@ def provenance(design: DesignFile) -> Provenance:
         generator=design.generator,
         source=design.source,
         design_sha256=design_sha256(design),
-        hangs_on_rope=design.plant.kind in {"crane", "double_pendulum"},
+        hangs_on_rope=design.plant.kind == "crane",
     )
 
 

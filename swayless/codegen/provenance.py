@@ -31,7 +31,7 @@ class Provenance:
     design_sha256 : str
         SHA-256 of the canonical design, 64 hexadecimal digits.
     hangs_on_rope : bool
-        Whether frequencies also are rope lengths.
+        Whether frequencies also are rope lengths: those of a single pendulum.
     """
 
     name: str
@@ -128,14 +128,16 @@ def _row_lines(row: Row, provenance: Provenance) -> list[str]:
     taps, guarantee = row.taps, row.taps.guarantee
     if isinstance(taps, PhaseTaps):
         return phase_row_lines(row)
-    mode, band = guarantee.mode, guarantee.band
+    bands = " and ".join(f"from {band.low_hz:.6g} to {band.high_hz:.6g}" for band in guarantee.bands)
+    lowest, highest = guarantee.damping_ratios
+    damping = f"{lowest:.6g}" if lowest == highest else f"{lowest:.6g} to {highest:.6g}"
     lines = [
-        f"{row.name}: {row.family} for {mode.frequency_hz:.6g} Hz, damping ratio {mode.damping_ratio:.6g}, "
+        f"{row.name}: {row.family} for {guarantee.mode.frequency_hz:.6g} Hz, damping ratio {damping}, "
         f"duration {taps.duration_s:.6g} s",
-        f"at most {100 * guarantee.tolerance:.6g} % from {band.low_hz:.6g} to {band.high_hz:.6g} Hz",
+        f"at most {100 * guarantee.tolerance:.6g} % {bands} Hz",
     ]
     if provenance.hangs_on_rope:
-        low_m, high_m = rope_length_interval_m(band)
+        low_m, high_m = rope_length_interval_m(guarantee.band)
         lines[-1] += f" (rope {low_m:.6g} to {high_m:.6g} m)"
     lines.append(f"overtravel {overtravel_s(taps):.6g} m per m/s, peak factor {peak_factor(taps):.6g}")
     if taps.has_negative:
