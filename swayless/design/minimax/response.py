@@ -73,9 +73,9 @@ class Response:
         return columns
 
     def peaks(self, amplitudes: FloatArray, low: float, high: float) -> Peaks:
-        """Find every local maximum between `low` and `high` cycles per duration."""
-        points = math.ceil(_POINTS_PER_CYCLE * (high - low)) + 9
-        grid, step = np.linspace(low, high, points, retstep=True)
+        """Find every local maximum from `low` to `high` cycles per duration; a single frequency is one."""
+        points = math.ceil(_POINTS_PER_CYCLE * (high - low)) + 9 if high > low else 1
+        grid, step = np.linspace(low, high, points), (high - low) / max(points - 1, 1)
         ratio = np.abs(self.columns(grid) @ amplitudes)
         top = np.flatnonzero((ratio >= np.append(-1.0, ratio[:-1])) & (ratio >= np.append(ratio[1:], -1.0)))
         left, right = np.maximum(grid[top] - step, low), np.minimum(grid[top] + step, high)

@@ -42,8 +42,6 @@ def settle(
     start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule, *, thorough: bool = False
 ) -> Optimum | None:
     """Polish, check and correct until the conditions hold everywhere; None if they do not come to."""
-    if start.times.size == 1:
-        return None
     for candidate in candidates(start, goal) if thorough else [start]:
         optimum = _settled(candidate, lines, goal, rule)
         if optimum is not None:
@@ -82,7 +80,7 @@ def with_peaks(optimum: Optimum, kept: NDArray[np.bool_] | IndexArray) -> Optimu
 def _settled(start: Optimum, lines: Sequence[Line], goal: Goal, rule: AmplitudeRule) -> Optimum | None:
     """Settle from one start."""
     for _ in range(_ROUNDS):
-        optimum = polish(start, goal, rule)
+        optimum = polish(start, goal, rule) if start.times.size > 1 else None
         if optimum is None or not is_near(optimum, start):
             return None
         if goal is Goal.REACH:
@@ -131,9 +129,7 @@ def peaks_of(times: FloatArray, amplitudes: FloatArray, lines: Sequence[Line]) -
     """Find every local maximum of the residual vibration on every line."""
     found = []
     for line in lines:
-        frequency = np.array([line.low])
-        if line.high > line.low:
-            frequency = _peak_frequencies(times, amplitudes, line)
+        frequency = _peak_frequencies(times, amplitudes, line)
         value = np.exp(np.multiply.outer(frequency * line.turn, times - times[-1])) @ amplitudes
         moving = (frequency > line.low) & (frequency < line.high)
         found.append((frequency, np.full(frequency.size, line.turn), moving, value))
@@ -188,12 +184,11 @@ def _with_times(optimum: Optimum, rule: AmplitudeRule) -> tuple[Optimum, bool]:
     certificate = certificate_of(optimum)
     positive = rule is AmplitudeRule.POSITIVE
     apart = 2.0 * np.pi * _APART / float(np.abs(certificate.rates).max())
-    kept = (optimum.amplitudes > 0.0) if positive else np.full(optimum.times.size, True)
-    kept &= np.diff(optimum.times, prepend=-1.0) > (apart if positive else 0.0)
-    kept[[0, -1]] = True
-    if not kept.all() and positive:
-        return _with_impulses(optimum, optimum.times[kept], optimum.amplitudes[kept])
-    if kept.all() and certificate.bound(rule) >= optimum.worst * (1.0 - _COVERED):
+    fewer = _merged(optimum, apart) if positive else None
+    if fewer is not None:
+        return fewer, True
+    rising = positive or bool((np.diff(optimum.times) > 0.0).all())
+    if rising and certificate.bound(rule) >= optimum.worst * (1.0 - _COVERED):
         return optimum, False
     times = certificate.dips() if positive else certificate.extremes()
     if not positive:
@@ -203,6 +198,19 @@ def _with_times(optimum: Optimum, rule: AmplitudeRule) -> tuple[Optimum, bool]:
     new = times[far & (certificate(times)[0] < optimum.worst * (1.0 - _COVERED))]
     admitted = np.full(new.size, _ADMITTED)
     return _with_impulses(optimum, np.append(optimum.times, new), np.append(optimum.amplitudes, admitted))
+
+
+def _merged(optimum: Optimum, apart: float) -> Optimum | None:
+    """Drop impulses that are none, and make one of those that are not apart; None if all is well."""
+    kept = optimum.amplitudes > 0.0
+    kept[[0, -1]] = True
+    times, amplitudes = optimum.times[kept], optimum.amplitudes[kept]
+    starts = np.flatnonzero(np.diff(times, prepend=-np.inf) > apart)
+    if starts.size == optimum.times.size:
+        return None
+    first = times[starts]
+    first[-1] = optimum.duration  # one that meets the last is the last
+    return replace(optimum, times=first, amplitudes=np.add.reduceat(amplitudes, starts))
 
 
 def _with_impulses(optimum: Optimum, times: FloatArray, amplitudes: FloatArray) -> tuple[Optimum, bool]:

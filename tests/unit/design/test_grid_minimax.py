@@ -194,3 +194,12 @@ def test_damping_must_be_below_one(damping_ratio):
     reason = rf"^damping_ratio = {damping_ratio!r}: must be at least 0 and below 1$"
     with pytest.raises(DesignError, match=reason):
         minimax_amplitudes(np.array([0.0, 1.0]), EI_BAND, damping_ratio=damping_ratio)
+
+
+@pytest.mark.parametrize("damping_ratio", [0.0, 0.1])
+def test_a_single_frequency_is_one_peak(damping_ratio: float) -> None:
+    times, amplitudes = np.array([0.0, 0.4, 1.0]), np.array([0.3, 0.5, 0.2])
+    peaks = Response.of_times(times, damping_ratio).peaks(amplitudes, 1.3, 1.3)
+    np.testing.assert_array_equal(peaks.frequency, [1.3])
+    # Three terms of order 1, each right to a few units in the last place.
+    assert np.abs(peaks.value) == pytest.approx(_ratio(times, amplitudes, 1.3, damping_ratio), rel=1e-14)

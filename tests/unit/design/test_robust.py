@@ -40,6 +40,27 @@ def test_a_single_frequency_at_zero_damping_has_the_textbook_optimum() -> None:
     np.testing.assert_allclose(design.shaper.amplitudes, [0.5, 0.5], atol=1e-9)
 
 
+def test_impulses_that_come_to_coincide_are_one() -> None:
+    # Newton's method ends with a second impulse on the last one here: two impulses are optimal.
+    band = Band(3.9312927622640634, 4.98012363792802)
+    design = specified_insensitivity(band, tolerance=0.1575, damping_ratio=0.1)
+    assert design.shaper.times_s.size == 2
+    _check(design, band, 0.1575, 0.1, "positive")
+
+
+@pytest.mark.parametrize("amplitudes", ["positive", "bounded"])
+@pytest.mark.parametrize("damping_ratio", [0.0, 0.1, (0.05, 0.15)])
+def test_two_single_frequencies_are_two_bands_without_width(
+    amplitudes: str, damping_ratio: float | tuple[float, float]
+) -> None:
+    bands = [Band(1.0, 1.0), Band(2.3, 2.3)]
+    design = specified_insensitivity(bands, damping_ratio=damping_ratio, amplitudes=amplitudes)  # type: ignore[arg-type]
+    dampings = damping_ratio if isinstance(damping_ratio, tuple) else (damping_ratio,)
+    left = [worst_residual(design.shaper, band, damping_ratio=z) for band in bands for z in dampings]
+    assert max(left) == pytest.approx(0.05, rel=1e-8)
+    assert 0.0 < design.gap_ratio < PROVED_GAP
+
+
 @pytest.mark.parametrize("damping_ratio", [0.0, 0.02, 0.2])
 @pytest.mark.parametrize("ratio", [1.3, 2.5, 8.0])
 @pytest.mark.parametrize("amplitudes", ["positive", "bounded"])
