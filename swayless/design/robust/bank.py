@@ -13,7 +13,7 @@ import numpy as np
 
 from swayless.design.robust.chain import Chain, Walk, is_too_long, next_start, same
 from swayless.design.robust.crossing import crossing
-from swayless.design.robust.demand import TOLERANCES, WIDEST_RATIO
+from swayless.design.robust.demand import TOLERANCES, WIDEST_RATIO, FewerDoError, NotHeldError
 from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
@@ -28,6 +28,7 @@ _ON_TIME = 1e-9  # relative: a row this little longer, or looser, than allowed i
 _EQUAL = 1e-9  # of the log of the last row's duration: the rest of it is not used
 _APART = 1e-4  # relative, of tolerances between which the bank jumps to another one, as labels do
 _STEEPNESS = 0.5  # a usual d log(duration) / d log(tolerance), of the first steps
+_EQUAL_AT_FIRST = 1e-5  # the same in the first round of rows on ticks, which is not the last
 _UNBALANCED = 1e-6  # relative: rows on ticks are balanced until they leave the same to this
 _BALANCING_ROUNDS = 3
 _JUMPED = 1e-5  # of the log of the last row's duration: a shorter one shows a jump, which nothing balances
@@ -160,7 +161,7 @@ def cover_with(
     )
     handicap = np.zeros(number)  # log of what the taps of a row leave, over what the ideal row does
     banks: list[tuple[float, tuple[Row, ...]]] = []
-    size, near = math.log(TOLERANCES[0]), _EQUAL
+    size, near = math.log(TOLERANCES[0]), _EQUAL if isinstance(rows, ContinuousRows) else _EQUAL_AT_FIRST
     for _ in range(_BALANCING_ROUNDS):
         size, (designs, excess) = _least_tolerance(chain, handicap, allowed_s, size, near)
         made = list[Row]()
@@ -203,7 +204,13 @@ def _fits(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s: floa
     """Whether one row in continuous time holds all that is left."""
     if rest.high_hz > WIDEST_RATIO * rest.low_hz:
         return False
-    return rows.ideal.shortest(rest, tolerance).shaper.duration_s <= duration_s * (1.0 + _ON_TIME)
+    try:
+        shortest_s = rows.ideal.shortest(rest, tolerance).shaper.duration_s
+    except NotHeldError:  # by so many impulses
+        return False
+    except FewerDoError as fewer:  # in the shortest time; a longer one may need as many as asked for
+        shortest_s = fewer.duration / rest.low_hz
+    return shortest_s <= duration_s * (1.0 + _ON_TIME)
 
 
 def _shortest_rest(

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from swayless.design.robust.demand import RULES, TOLERANCES, WIDEST_RATIO
+from swayless.design.robust.demand import RULES, TOLERANCES, WIDEST_RATIO, NotHeldError
 from swayless.design.robust.exact import worst_at_ends
 from swayless.design.robust.rows import ContinuousRows
 from swayless.design.robust.specified import RobustDesign
@@ -100,5 +100,8 @@ class Chain:
         rest = Band(start_hz, self.high_hz)
         if rest.high_hz > WIDEST_RATIO * rest.low_hz:
             return Walk(designs, math.inf)
-        last = self.rows.shortest(rest, allowed[-1])
+        try:
+            last = self.rows.shortest(rest, allowed[-1])
+        except NotHeldError:
+            return Walk(designs, math.inf)
         return Walk([*designs, last], math.log(last.shaper.duration_s / duration_s))

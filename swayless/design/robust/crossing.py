@@ -11,6 +11,7 @@ from collections.abc import Callable
 _TRIALS = 80
 _JUMP = 1e3  # a function steeper than this jumps
 _RESOLVED = 1e-12  # width of a bracket that rounding allows
+_FIRST_STEPS = 1.2  # times what the usual steepness says: beyond the crossing is as good as before it
 _LEAST_SHARE = 1e-4  # of a bracket, that a step leaves on either side
 
 
@@ -54,26 +55,46 @@ def crossing(
     >>> round(root, 9)
     1.414213562
     """
-    left, above, right, below = math.nan, math.nan, start, function(start)
-    while below > 0.0:
+
+    def aimed(argument: float) -> float:
+        return function(argument) + near / 2.0  # the middle of the values that end the search
+
+    left, above, right, below = math.nan, math.nan, start, aimed(start)
+    while below > near / 2.0:
         if right >= limit:
             return None
         left, above = right, below
-        right = min(limit, right + 2.0 * below / steepness)
-        below, steepness = function(right), steepness / 2.0
-    least, value, before = right, below, math.nan
+        right = min(limit, right + _FIRST_STEPS * below / steepness)
+        below, steepness = aimed(right), steepness / 2.0
+    if math.isnan(left):
+        return right
+    return _narrowed(aimed, (left, above), (right, below), near / 2.0, apart)
+
+
+def _narrowed(
+    aimed: Callable[[float], float],
+    over: tuple[float, float],
+    under: tuple[float, float],
+    near: float,
+    apart: float,
+) -> float:
+    """Narrow a bracket, given as arguments and values, until a value is this near to 0."""
+    (left, above), (right, below) = over, under
+    least, value, before, width_before = right, below, math.nan, math.inf
     for trial in range(_TRIALS):
         width, jump = right - left, above - below > _JUMP * (right - left)
-        if math.isnan(left) or width <= (apart if jump else _RESOLVED) or -near <= value <= 0.0:
+        if width <= (apart if jump else _RESOLVED) or abs(value) <= near:
             break
-        # A jump draws no secant near: then every third step halves the bracket.
-        drawn = math.isfinite(above) and math.isfinite(below) and trial % 3 < 2
+        # Across a jump no secant comes near: where three steps did not halve the bracket, the next one does.
+        drawn = math.isfinite(above) and math.isfinite(below)
+        if trial % 3 == 2:
+            drawn, width_before = drawn and width < 0.5 * width_before, width
         share = above / (above - below) if drawn else 0.5
-        middle = left + (right - left) * min(max(share, _LEAST_SHARE), 1.0 - _LEAST_SHARE)
-        value = function(middle)
-        if value > 0.0:
-            left, above, below = middle, value, below / 2.0 if before > 0.0 else below
+        middle = left + width * min(max(share, _LEAST_SHARE), 1.0 - _LEAST_SHARE)
+        value = aimed(middle)
+        if value > near:
+            left, above, below = middle, value, below / 2.0 if before > near else below
         else:
-            least, right, below, above = middle, middle, value, above / 2.0 if before <= 0.0 else above
+            least, right, below, above = middle, middle, value, above / 2.0 if before <= near else above
         before = value
     return least

@@ -36,6 +36,26 @@ LARGEST_DAMPING_RATIO = 0.2
 _FEWEST_IMPULSES = 3
 
 
+class NotHeldError(DesignError):
+    """So many impulses cannot hold what is asked for, whatever their duration."""
+
+
+class FewerDoError(DesignError):
+    """Fewer impulses than asked for are as good.
+
+    Parameters
+    ----------
+    message : str
+        Which number does.
+    duration : float
+        What they last, in periods of the lowest frequency.
+    """
+
+    def __init__(self, message: str, duration: float) -> None:
+        super().__init__(message)
+        self.duration = duration
+
+
 @dataclass(frozen=True)
 class Demand:
     """What a design must hold.

@@ -87,8 +87,10 @@ def worst_at_ends(
 def residual_range(
     lines: Sequence[Line], duration: float, tolerance: float, rule: AmplitudeRule
 ) -> tuple[float, float]:
-    """Bound the least worst residual vibration of a duration from below and from above."""
-    found = refined(lines, duration, rule, gap=_STAGES[-1][1], resolved=_RESOLVED * tolerance)
+    """Bound the least worst residual of a duration from below and from above, to tell it from a tolerance."""
+    found = refined(
+        lines, duration, rule, gap=_STAGES[-1][1], resolved=_RESOLVED * tolerance, decided=tolerance
+    )
     return found.bound, found.worst
 
 

@@ -64,7 +64,13 @@ class Refined:
 
 
 def refined(
-    lines: Sequence[Line], duration: float, rule: AmplitudeRule, *, gap: float, resolved: float
+    lines: Sequence[Line],
+    duration: float,
+    rule: AmplitudeRule,
+    *,
+    gap: float,
+    resolved: float,
+    decided: float = math.nan,
 ) -> Refined:
     """Find amplitudes whose worst residual on all lines is within a gap of the least there is.
 
@@ -80,6 +86,8 @@ def refined(
         Relative distance of worst and bound, 1e-5 to 0.1.
     resolved : float
         Residual vibration below which the gap counts relative to this.
+    decided : float
+        End as soon as the least worst residual is known to be above this, or to be at most this.
 
     Returns
     -------
@@ -94,7 +102,8 @@ def refined(
     exchange = _Exchange.start(lines, duration, rule)
     for _ in range(_ROUNDS):
         level, found = exchange.solved(gap=_CENTRED * gap, resolved=resolved)
-        if found.bound >= found.worst - gap * max(found.worst, resolved):
+        known = found.bound > decided or found.worst <= decided
+        if known or found.bound >= found.worst - gap * max(found.worst, resolved):
             break
         exchange = exchange.thinned(found, _IDLE * gap).grown(level, found)
     return found

@@ -17,6 +17,7 @@ import numpy as np
 
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.robust import exact
+from swayless.design.robust.demand import FewerDoError, NotHeldError
 from swayless.design.robust.descent import Trials, alternating, descended
 from swayless.design.robust.lines import Line
 from swayless.design.robust.search import candidates, is_near, peaks_of
@@ -48,7 +49,6 @@ _LEAST_TOLD = 0.01  # residual vibration below which the bounded optimum need no
 _SHORTEST = 0.1  # periods of the lowest frequency
 _LONGEST = 0.36  # periods of the lowest frequency per impulse
 _LARGEST_RATIO = 8.0
-_NARROWEST = 1e-6  # relative width of a band
 
 
 def shortest(lines: Sequence[Line], tolerance: float, count: int) -> Optimum:
@@ -65,15 +65,17 @@ def shortest(lines: Sequence[Line], tolerance: float, count: int) -> Optimum:
 
     Raises
     ------
-    DesignError
-        If so many impulses cannot hold the lines whatever their duration, or fewer are as good.
+    NotHeldError
+        If so many impulses cannot hold the lines whatever their duration.
+    FewerDoError
+        If fewer impulses are as good.
 
     Examples
     --------
     >>> round(shortest([Line(1.0, 1.2, 0.0)], 0.05, 5).duration, 4)
     0.598
     """
-    return _Search(Goal.DURATION, _bands(lines), 1.0, tolerance, count).best()
+    return _Search(Goal.DURATION, tuple(lines), 1.0, tolerance, count).best()
 
 
 def widest(duration: float, damping_ratio: float, tolerance: float, count: int) -> Optimum:
@@ -119,7 +121,7 @@ def least(lines: Sequence[Line], duration: float, count: int) -> Optimum:
 
     Raises
     ------
-    DesignError
+    FewerDoError
         If fewer impulses are as good.
 
     Examples
@@ -127,7 +129,7 @@ def least(lines: Sequence[Line], duration: float, count: int) -> Optimum:
     >>> round(least([Line(1.0, 1.1, 0.0)], 0.5, 5).worst, 4)
     0.0585
     """
-    return _Search(Goal.WORST, _bands(lines), duration, 1.0, count).best()
+    return _Search(Goal.WORST, tuple(lines), duration, 1.0, count).best()
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +158,7 @@ class _Search:
         if fewer is not None and (optimum is None or self._badness(fewer) <= self._badness(optimum)):
             return self._with_count(fewer)
         if optimum is None:
-            raise DesignError(self._refusal(worst))
+            raise self._refusal(worst)
         return optimum
 
     def _bounded(self) -> Optimum | None:
@@ -175,25 +177,28 @@ class _Search:
         """Refuse an optimum of fewer impulses than asked for."""
         if optimum.times.size == self.count:
             return optimum
-        raise DesignError(
+        raise FewerDoError(
             f"impulses = {self.count}: no better than {optimum.times.size}, because two of them would cancel "
-            f"each other; ask for {optimum.times.size}"
+            f"each other; ask for {optimum.times.size}",
+            optimum.duration,
         )
 
-    def _refusal(self, worst: float) -> str:
+    def _refusal(self, worst: float) -> DesignError:
         """Say what is missing, and what would do."""
         what = f"{self.count} impulses +1, -1, ..., +1"
         if self.goal is Goal.REACH and worst < self.tolerance:
-            return (
+            return DesignError(
                 f"{what} hold all up to {_LARGEST_RATIO:g} times the lowest frequency; ask for fewer impulses"
             )
         if worst < self.tolerance:
-            return f"{what}: no optimum is found; another number of impulses or another tolerance may do"
+            return DesignError(
+                f"{what}: no optimum is found; another number of impulses or another tolerance may do"
+            )
         span = f"{self.duration:.4g}"
         if self.goal is Goal.DURATION:
             span = f"{_SHORTEST:g} to {_LONGEST * self.count:.3g}"
         where = "the lowest frequency" if self.goal is Goal.REACH else "the band"
-        return (
+        return NotHeldError(
             f"{what} of {span} periods of the lowest frequency leave {100.0 * worst:.3g} % on {where} "
             "at best; more impulses, another duration or a larger tolerance may do"
         )
@@ -301,11 +306,6 @@ class _Search:
                 return optimum if corrected is None else None
             start = corrected
         return None
-
-
-def _bands(lines: Sequence[Line]) -> tuple[Line, ...]:
-    """Give single frequencies a width, so that they have ends at which the vibration peaks."""
-    return tuple(replace(line, high=max(line.high, line.low * (1.0 + _NARROWEST))) for line in lines)
 
 
 def _starts(number: int, count: int) -> FloatArray:
