@@ -29,7 +29,7 @@ def rope_constants(rope: RopeSettings, types: CTypes) -> list[CConstant]:
         ("ROPE_JUMP", rope.jump, f"{length}: difference of two readings that is always taken"),
         ("ROPE_WAY_PER_TICK", rope.way_per_tick, f"{length}: hoist_speed times tick"),
         ("ROPE_TICK", rope.tick_s, f"{tick}: tick"),
-        ("FROZEN_WAY", frozen, f"{way}: a length that stays for so long a way is frozen"),
+        ("FROZEN_WAY", frozen, f"{way}: a length that stays so long is frozen"),
     ]
     held = CConstant(
         "uint32_t", "MOST_HELD_TICKS", f"{MOST_HELD_TICKS}u", "by then the hoist may be anywhere"
