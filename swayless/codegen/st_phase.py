@@ -1,0 +1,130 @@
+"""Constants and tables of a measured rope and the phase clock in Structured Text. Not for: their law."""
+
+from __future__ import annotations
+
+from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, st_table
+from swayless.controller import hoist
+from swayless.controller.phase_clock import PhaseClock
+from swayless.controller.phase_filter import last_cell
+from swayless.controller.rope import MOST_HELD_TICKS
+from swayless.controller.settings import ShaperSettings
+
+
+def rope_constants(settings: ShaperSettings, types: StTypes) -> list[Constant]:
+    """List what the block knows of its rope; nothing where it is not measured.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    types : StTypes
+        Its types.
+    """
+    rope = settings.rope
+    if rope is None:
+        return []
+    reals: list[RealConstant] = [
+        ("ShortestRope", rope.shortest, "[m] rope_length"),
+        ("LongestRope", rope.longest, "[m] rope_length"),
+        ("FastestHoist", rope.hoist_speed, "[m/s] hoist_speed"),
+        ("RopeJump", rope.jump, "[m] difference of two readings that is always taken"),
+        ("RopeWayPerTick", rope.way_per_tick, "[m] farthest that the rope moves in a tick"),
+    ]
+    held = Constant(
+        "MostHeldTicks", "DINT", str(MOST_HELD_TICKS), "[ticks] a held length is counted up to here"
+    )
+    return [*types.constants(reals), held]
+
+
+def phase_constants(settings: ShaperSettings, types: StTypes) -> list[Constant]:
+    """List the constants of the phase clock; nothing without one.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    types : StTypes
+        Its types.
+    """
+    clock = settings.clock
+    if clock is None:
+        return []
+    last = last_cell(settings)
+    whole = (
+        ("LastCell", last, "last cell of the ring"),
+        ("CellCount", last + 1, "cells of the ring"),
+        ("LastTableCell", len(clock.nodes) - 2, "last cell of the phase table"),
+    )
+    return [
+        *(Constant(name, "DINT", str(value), doc) for name, value, doc in whole),
+        *types.constants(_clock_constants(clock)),
+        *types.constants(_hoist_constants(settings)),
+    ]
+
+
+def phase_tables(settings: ShaperSettings, types: StTypes) -> list[Table]:
+    """List the tables of the phase clock; nothing without one.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    types : StTypes
+        Its types.
+    """
+    clock = settings.clock
+    if clock is None:
+        return []
+    by_row = [[types.literal(s) for s in row] for row in hoist.stretches(settings)]
+    nodes = [[types.literal(node) for node in clock.nodes]]
+    lengths = f"{float(clock.shortest):.6g} m on, {1.0 / float(clock.cells_per_unit):.6g} m apart"
+    return [
+        st_table(
+            "Stretches",
+            types.real,
+            by_row,
+            "[s per m and quantum] Change of sqrt(L) until each tap, relative, per hoist speed; by row.",
+        ),
+        st_table("PhaseTable", types.real, nodes, f"[quanta] Phase of a tick on ropes from {lengths}."),
+    ]
+
+
+def most_cells_a_tick(clock: PhaseClock) -> int:
+    """Cells of the ring that a tap can pass in a tick: at least 2, as loops of one trip are not portable.
+
+    Examples
+    --------
+    >>> from swayless.controller.number import number_type
+    >>> most_cells_a_tick(PhaseClock(1e-7, (3000, 2000, 1499), 3.0, 1.0, number_type("double")))
+    3
+    """
+    return max(2, -(-clock.most_quanta // clock.fewest_quanta))
+
+
+def _clock_constants(clock: PhaseClock) -> list[RealConstant]:
+    return [
+        ("CellsPerMetre", clock.cells_per_unit, "[1/m] cells of the phase table"),
+        ("Quantum", clock.quantum_rad, "[rad] phase of a quantum"),
+        ("PerMostQuanta", 1.0 / clock.most_quanta, "1 / quanta of a tick on the shortest rope"),
+        ("PerFewestQuanta", 1.0 / clock.fewest_quanta, "1 / quanta of a tick on the longest rope"),
+    ]
+
+
+def _hoist_constants(settings: ShaperSettings) -> list[RealConstant]:
+    units, scalar = settings.limits.units, settings.number.scalar
+    full, kick = settings.limits.max_command, hoist.kick_per_quantum(settings)
+    first, second, third, fourth = hoist.SERIES
+    return [
+        ("KickPerQuantum", kick, "[s/m] kick of a change of hoist speed, 1 / (w L)"),
+        ("Loss", hoist.loss_ratio(settings), "damping ratio of the swing beside the reference"),
+        ("Sixth", 1.0 / 6.0, "1 / 6, of the sine of a small angle"),
+        ("Twelfth", 1.0 / 12.0, "1 / 12, of its cosine"),
+        ("LongestStretch", hoist.LONGEST_STRETCH, "relative change of sqrt(L) that is weighted for at most"),
+        ("FirstOrder", first, "of z in (1 + z)^(-1/2)"),
+        ("SecondOrder", second, "of its square"),
+        ("ThirdOrder", third, "of its cube"),
+        ("FourthOrder", fourth, "of its fourth power"),
+        ("LeastMismatch", hoist.LEAST_MISMATCH, "relative error of a weight from which on it is corrected"),
+        ("LeastAnswer", full * scalar(hoist.LEAST_ANSWER), f"[{units}] smaller kicks are collected"),
+        ("LeastOwed", full * scalar(hoist.LEAST_OWED), f"[{units}] smaller corrections are left"),
+    ]

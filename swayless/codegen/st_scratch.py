@@ -1,0 +1,102 @@
+"""What a Structured Text block computes on its way through one call. Not for: what lives longer."""
+
+from __future__ import annotations
+
+from swayless.codegen.features import Features
+from swayless.codegen.st_types import StTypes, Variable, parts_in_use
+
+SCRATCH = (
+    ("real", "Accepted", "checked command", "all"),
+    ("real", "Goal", "command that the row in use lets pass", "all"),
+    ("real", "Before", "ramped command of the last call", "all"),
+    ("real", "Reach", "command or reference one tick on", "all"),
+    ("real", "Lowest", "least that the reference can be but for rounding", "ticks"),
+    ("real", "Highest", "most that the reference can be but for rounding", "ticks"),
+    ("real", "LapSum", "part of the reference from this lap", "ticks"),
+    ("real", "Start", "command from which the stop ramp starts", "all"),
+    ("real", "RampStep", "step of a ramp", "all"),
+    ("real", "StepsPerUnit", "1 / RampStep", "all"),
+    ("real", "Anchor", "ramp anchor with the sign of the command", "all"),
+    ("real", "Steps", "the same as a real", "all"),
+    ("real", "DownSum", "sum of the commands of the stop ramp", "all"),
+    ("real", "StopSum", "sum of the references to come", "all"),
+    ("word", "WholeSteps", "whole steps of a ramp before its last", "all"),
+    ("word", "DownTicks", "ticks of the stop ramp", "all"),
+    ("word", "StopTicks", "ticks until the reference is 0", "all"),
+    ("row", "RestRow", "row at the end of the stop", "all"),
+    ("word", "FirstTap", "first tap of the row", "all"),
+    ("word", "TapCount", "taps of the row", "all"),
+    ("word", "Tap", "tap", "all"),
+    ("word", "Delay", "its delay", "ticks"),
+    ("word", "i", "counter", "all"),
+    ("word", "Bits", "status bits of this call", "all"),
+    ("bool", "Valid", "the command is finite", "all"),
+    ("bool", "Landed", "a ramp has landed", "all"),
+    ("bool", "InRange", "the command is within the maximum", "all"),
+    ("bool", "ZeroCommanded", "the command is a valid 0", "all"),
+    ("bool", "Stopped", "a stop is latched", "all"),
+    ("bool", "IsSettled", "nothing is pending", "all"),
+    ("real", "RiseSum", "sum of the commands of the ramp to the target", "waiting"),
+    ("word", "RiseTicks", "its ticks", "waiting"),
+    ("word", "HoldTicks", "ticks at the target until settled", "waiting"),
+    ("bool", "RowWaits", "the row has negative amplitudes", "waiting"),
+    ("bool", "StopWaits", "a stop waits until settled", "waiting"),
+    ("real", "HoistNow", "[m/s] checked hoist speed", "rope"),
+    ("real", "RopeBefore", "[m] rope length of the last call", "rope"),
+    ("real", "RopeRead", "[m] rope length as read, within the range", "rope"),
+    ("real", "RopeReach", "[m] farthest that the rope can have moved since the last reading", "rope"),
+    ("bool", "RopeTaken", "the reading can be true", "rope"),
+    ("bool", "AtRest", "nothing is pending, so that every rope length is taken", "rope"),
+    ("real", "TablePlace", "place of the rope length in the table", "phase"),
+    ("word", "TableCell", "its cell", "phase"),
+    ("word", "ElapsedQuanta", "quanta of the last tick", "phase"),
+    ("real", "HoistRate", "checked hoist speed times quanta", "phase"),
+    ("word", "j", "counter", "phase"),
+    ("word", "Cell", "cell that a tap has reached", "phase"),
+    ("word", "Ahead", "[quanta] phase until it is passed", "phase"),
+    ("real", "AheadReal", "the same as a real", "phase"),
+    ("real", "Part", "part of a change that a tap releases", "phase"),
+    ("real", "PartMoment", "part times phase that it still had to go", "phase"),
+    ("real", "Passed", "sum of the same over the parts released", "phase"),
+    ("real", "FreshPassed", "the same from the changes of this lap alone", "phase"),
+    ("real", "GapReal", "quanta of the tick for which it was made", "phase"),
+    ("real", "LowStretch", "least change of sqrt(L) that the rope allows, relative", "phase"),
+    ("real", "HighStretch", "most of the same", "phase"),
+    ("real", "Stretch", "change of sqrt(L) until a tap releases, relative", "phase"),
+    ("real", "StretchTail", "its series but for the first orders", "phase"),
+    ("real", "Excess", "how much more a part is on the rope as it is, relative", "phase"),
+    ("real", "More", "the same of this part", "phase"),
+    ("real", "Due", "what is released of a part", "phase"),
+    ("real", "Delayed", "what of it comes a tick later", "phase"),
+    ("real", "Release", "what the taps release in this tick", "phase"),
+    ("real", "Owed", "what releases differ from their parts: it goes through the taps again", "phase"),
+    ("real", "Kick", "step of the reference that undoes the kick of the hoist", "phase"),
+    ("real", "Change", "change that goes through the taps", "phase"),
+    ("real", "NowPart", "its part that is released at once", "phase"),
+    ("real", "ChangeMoment", "sum of part times phase to go of its later parts", "phase"),
+    ("real", "WeightSum", "sum of the weights", "phase"),
+    ("real", "WeightShare", "1 / WeightSum", "phase"),
+    ("real", "Angle", "[rad] phase of this tick", "phase"),
+    ("real", "Square", "its square", "phase"),
+    ("real", "Sine", "its sine", "phase"),
+    ("real", "Cosine", "its cosine", "phase"),
+    ("real", "Keep", "what damping leaves of the swing in a tick", "phase"),
+    ("real", "Pace", "speed of the swing after the step of the reference", "phase"),
+    ("word", "LagLeft", "phase until the last tap has passed", "phase"),
+    ("bool", "Shaping", "the taps run in this call", "phase"),
+)
+"""Kind, name, comment, and the part of the law that needs each."""
+
+
+def scratch_of(types: StTypes, features: Features) -> list[Variable]:
+    """List what a call computes on its way.
+
+    Parameters
+    ----------
+    types : StTypes
+        Types of the block.
+    features : Features
+        Parts of the law in use.
+    """
+    used = parts_in_use(features)
+    return [Variable(name, types.type_of(kind), doc) for kind, name, doc, part in SCRATCH if part in used]

@@ -1,0 +1,129 @@
+"""Declarations of a Structured Text block: variables, constants, tables. Not for: which ones a block has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from swayless.codegen.features import Features
+from swayless.codegen.literals import st_literal
+from swayless.controller.number import NumberType
+from swayless.errors import CodegenError
+
+VALUES_A_LINE = 6
+"""Table values in one line of source."""
+
+ST_REALS = {"double": "LREAL", "float": "REAL"}
+"""Structured Text type of each number type."""
+
+
+RealConstant: TypeAlias = tuple[str, Any, str]
+"""Name, value and comment of a constant of the number type."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One declared variable."""
+
+    st_name: str
+    st_type: str
+    st_doc: str
+    st_initial: str = ""
+    st_reset: str = ""
+
+
+@dataclass(frozen=True)
+class Constant:
+    """One declared constant."""
+
+    st_name: str
+    st_type: str
+    st_literal: str
+    doc: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """One table, broken into lines."""
+
+    st_name: str
+    st_type: str
+    last: int
+    st_lines: tuple[str, ...]
+    doc: str
+
+
+class StTypes:
+    """Types and literals of one block.
+
+    Parameters
+    ----------
+    number : NumberType
+        ``double`` or ``float``.
+
+    Raises
+    ------
+    CodegenError
+        If the number type is int32.
+    """
+
+    def __init__(self, number: NumberType) -> None:
+        if number.name not in ST_REALS:
+            raise CodegenError(
+                f"number = {number.name!r}: Structured Text calculates in LREAL (double) or REAL (float)"
+            )
+        self.number = number
+        self.real = ST_REALS[number.name]
+
+    def type_of(self, kind: str) -> str:
+        """Structured Text type of a kind: ``"bool"``, ``"real"``, ``"row"`` or ``"word"``."""
+        return {"bool": "BOOL", "real": self.real, "row": "DINT", "word": "DINT"}[kind]
+
+    def literal(self, value: Any) -> str:
+        """Literal of the number type."""
+        return st_literal(self.number.scalar(value), self.number)
+
+    def constants(self, reals: Iterable[RealConstant]) -> list[Constant]:
+        """Declare constants of the number type."""
+        return [Constant(name, self.real, self.literal(value), doc) for name, value, doc in reals]
+
+    def array_of(self, kind: str, last: int) -> str:
+        """Type of an array with indices 0 to `last`."""
+        return f"ARRAY[0..{last}] OF {self.type_of(kind)}"
+
+
+def parts_in_use(features: Features) -> frozenset[str]:
+    """Name the parts of the law that a block uses; declarations say which part needs them.
+
+    Parameters
+    ----------
+    features : Features
+        Parts of the law in use, as flags.
+    """
+    parts = {
+        "ticks": not features.has_phase_clock,
+        "phase": features.has_phase_clock,
+        "rope": features.has_rope,
+        "resolution": features.has_resolution,
+        "inching": features.has_inching,
+        "waiting": features.has_waiting_rows,
+    }
+    return frozenset(["all", *(name for name, used in parts.items() if used)])
+
+
+def st_table(name: str, st_type: str, rows: Sequence[Sequence[str]], doc: str) -> Table:
+    """Lay out a table: every row begins a new line.
+
+    Parameters
+    ----------
+    name, st_type : str
+        Name, and type of an element.
+    rows : sequence of sequence of str
+        Literals.
+    doc : str
+        Comment.
+    """
+    chunks = [list(row[i : i + VALUES_A_LINE]) for row in rows for i in range(0, len(row), VALUES_A_LINE)]
+    lines = [", ".join(c) + ("," if i < len(chunks) - 1 else "") for i, c in enumerate(chunks)]
+    return Table(name, st_type, sum(len(row) for row in rows) - 1, tuple(lines), doc)
