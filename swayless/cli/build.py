@@ -134,7 +134,7 @@ def _figures(design: DesignFile) -> dict[str, Callable[[], Figure]]:
     from swayless.cli.plot import FIGURE_PRESS_S, bank, response, sensitivity
 
     figures: dict[str, Callable[[], Figure]] = {"figures/sensitivity.svg": partial(sensitivity, design)}
-    if design.plant.frequency_hz[0] < design.plant.frequency_hz[1]:
+    if design.law == "fixed" and design.plant.frequency_hz[0] < design.plant.frequency_hz[1]:
         figures["figures/bank.svg"] = partial(bank, design)
     for row in range(1, len(design.shapers) + 1):
         figures[f"figures/response-{row}.svg"] = partial(response, design, row, FIGURE_PRESS_S)

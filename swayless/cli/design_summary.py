@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from swayless.cli.console import at_most, interval, per_cent, print_line, print_table, rounded_down
 
 if TYPE_CHECKING:
-    from swayless.machine import DesignFile, GuaranteeRecord, ShaperRecord, TapsRecord
+    from swayless.machine import DesignFile, GuaranteeRecord, PhaseTapsRecord, ShaperRecord, TapsRecord
 
 NEGATIVE_NOTE = (
     "a new command waits until the last one has come to rest, so a short jog is stretched: "
@@ -37,11 +37,13 @@ def print_design(design: DesignFile, remarks: Sequence[str] = ()) -> None:
     remarks : sequence of str
         What else there is to say.
     """
+    from swayless.machine import TapsRecord as RecordOfTaps
+
     shaper = design.shapers[0]
     impulses = zip(shaper.times_s, shaper.amplitudes, strict=True)
     columns, rows = ("time [s]", "amplitude"), [(f"{t:.9g}", f"{a:.9g}") for t, a in impulses]
     print_table(f"{shaper.family} {_made_for(design)}", columns, rows)
-    if shaper.taps is not None:
+    if isinstance(shaper.taps, RecordOfTaps):
         taps = zip(shaper.taps.delays_ticks, shaper.taps.amplitudes, strict=True)
         columns, rows = ("delay [ticks]", "amplitude"), [(f"{d}", f"{a:.12g}") for d, a in taps]
         print_table(f"taps: the same on ticks of {design.tick_s:g} s, which is what runs", columns, rows)
@@ -126,7 +128,7 @@ def _ropes(shaper: ShaperRecord, held: GuaranteeRecord) -> str:
     return f"{interval(*held.rope_length_m, digits=4 if shaper.amplitude_rule is None else 6)} m"
 
 
-def _facts(part: ShaperRecord | TapsRecord, design: DesignFile) -> dict[str, str]:
+def _facts(part: ShaperRecord | TapsRecord | PhaseTapsRecord, design: DesignFile) -> dict[str, str]:
     held = part.guarantee
     facts = {
         "duration": f"{part.duration_s:.6g} s",

@@ -19,6 +19,7 @@ class Example(StrEnum):
     flexible_arm = "flexible-arm"
     srtc_gantry_bank = "srtc-gantry-bank"
     double_pendulum = "double-pendulum"
+    hoisting_gantry = "hoisting-gantry"
 
 
 def init(

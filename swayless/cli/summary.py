@@ -14,7 +14,7 @@ from swayless.cli.design_summary import bands, damping_ratios, proofs
 
 if TYPE_CHECKING:
     from swayless.controller import ShaperOutput, ShaperSettings
-    from swayless.machine import DesignFile, ShaperRecord, TapsRecord
+    from swayless.machine import DesignFile, PhaseTapsRecord, ShaperRecord, TapsRecord
 
 MM_PER_M = 1000.0
 """Stop distances of int32 blocks are in mm."""
@@ -38,7 +38,7 @@ class Ways(NamedTuple):
 
 
 def ways(settings: ShaperSettings, row: int) -> Ways:
-    """Ask the block's own reference for the ways of a row.
+    """Ask the block's own reference for the ways of a row; where the rope is measured, on the longest.
 
     Parameters
     ----------
@@ -51,7 +51,8 @@ def ways(settings: ShaperSettings, row: int) -> Ways:
 
     shaper = CommandShaper(settings)
     limits = settings.limits
-    full = ShaperInput(command=limits.max_command, selector=row)
+    rope = 0 if settings.rope is None else settings.rope.longest
+    full = ShaperInput(command=limits.max_command, selector=row, rope_length=rope)
     ramp_ticks = int(limits.max_command / limits.acceleration_step) + 2
     first = steady = shaper.step(full)
     for _ in range(ramp_ticks + 2 * settings.longest_delay_ticks + 2):
@@ -136,7 +137,7 @@ def _on_rope(design: DesignFile) -> bool:
     return design.plant.kind in {"crane", "double_pendulum"}
 
 
-def _held(design: DesignFile, taps: TapsRecord) -> tuple[float, float]:
+def _held(design: DesignFile, taps: TapsRecord | PhaseTapsRecord) -> tuple[float, float]:
     return taps.guarantee.rope_length_m if _on_rope(design) else taps.guarantee.frequency_hz
 
 
@@ -153,7 +154,7 @@ def _gaps(design: DesignFile) -> list[tuple[float, float]]:
     return uncovered([_held(design, _taps(shaper)) for shaper in design.shapers], whole)
 
 
-def _taps(shaper: ShaperRecord) -> TapsRecord:
+def _taps(shaper: ShaperRecord) -> TapsRecord | PhaseTapsRecord:
     assert shaper.taps is not None  # noqa: S101 - a machine always has a tick
     return shaper.taps
 

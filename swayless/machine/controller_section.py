@@ -14,7 +14,7 @@ from swayless.machine.drive_section import DriveSection
 from swayless.machine.problems import Table
 
 TICK = quantity("time", 1e-6, 1.0)
-LAWS = ("fixed",)
+LAWS = ("fixed", "phase")
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,9 @@ class ControllerSection:
         Time between two calls of the block, at least 1 us and at most 1 s.
     number : {"double", "float", "int32"}
         Number type of the generated code.
-    law : {"fixed"}
-        Controller law: the taps keep their delays in ticks.
+    law : {"fixed", "phase"}
+        Controller law: the taps keep their delays in ticks, or in phases of the pendulum, which follow a
+        measured rope.
     """
 
     tick_s: float
@@ -40,7 +41,7 @@ def read_controller(table: Table) -> ControllerSection | None:
     """Read the section; None where its tick is missing or a value is wrong."""
     tick_s = table.need("tick", TICK)
     number = table.take("number", choice("number type", NUMBER_TYPES), "double")
-    law = table.take("law", choice("law for this version", LAWS), "fixed")
+    law = table.take("law", choice("law", LAWS), "fixed")
     if tick_s is None or number is None or law is None:
         return None
     return ControllerSection(tick_s, number, law)

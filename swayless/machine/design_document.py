@@ -31,7 +31,9 @@ from swayless.machine.design_members import (
     NAME,
     NOT_NEGATIVE,
     ORDER,
+    PER_RAD,
     POSITIVE,
+    QUANTA,
     RANGE,
     TAP_AMPLITUDES,
     TEXT,
@@ -39,7 +41,7 @@ from swayless.machine.design_members import (
     TOLERANCE,
     word,
 )
-from swayless.machine.record import Record, one, optional, several
+from swayless.machine.record import Record, one, one_of, optional, several
 from swayless.machine.robust_row import AMPLITUDE_RULES
 from swayless.machine.stored_numbers import nearest_12
 
@@ -75,6 +77,7 @@ class PlantRecord(Record):
     frequency_hz: Annotated[Pair, RANGE]
     damping_ratio: Annotated[float, DAMPING]
     double_pendulum: Annotated[DoublePendulumRecord | None, optional(one(DoublePendulumRecord))]
+    hoist_speed_m_s: Annotated[float | None, optional(POSITIVE)]
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
         """Require sling and masses exactly for a double pendulum."""
@@ -159,6 +162,29 @@ class TapsRecord(Record):
 
 
 @dataclass(frozen=True)
+class PhaseTapsRecord(Record):
+    """The impulses at phases of the pendulum, which is what runs; times are those on the longest rope."""
+
+    phases_rad: Annotated[Floats, TIMES]
+    amplitudes: Annotated[Floats, TAP_AMPLITUDES]
+    duration_s: Annotated[float, NOT_NEGATIVE]
+    overtravel_s: Annotated[float, FINITE]
+    guarantee: Annotated[GuaranteeRecord, one(GuaranteeRecord)]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require one amplitude for each phase."""
+        yield from _lengths("phases_rad", self.phases_rad, self.amplitudes)
+
+
+@dataclass(frozen=True)
+class ClockRecord(Record):
+    """The table of the phase clock in the design's number type: quanta of a tick over the rope length."""
+
+    quanta_per_rad: Annotated[int, PER_RAD]
+    tick_quanta: Annotated[tuple[int, ...], QUANTA]
+
+
+@dataclass(frozen=True)
 class ShaperRecord(Record):
     """One row of the bank: the shaper in continuous time, and its taps where there is a tick."""
 
@@ -176,7 +202,10 @@ class ShaperRecord(Record):
     overtravel_s: Annotated[float, FINITE]
     peak_factor: Annotated[float, POSITIVE]
     guarantee: Annotated[GuaranteeRecord, one(GuaranteeRecord)]
-    taps: Annotated[TapsRecord | None, optional(one(TapsRecord))]
+    taps: Annotated[
+        TapsRecord | PhaseTapsRecord | None,
+        optional(one_of({"delays_ticks": TapsRecord, "phases_rad": PhaseTapsRecord})),
+    ]
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
         """Require one amplitude for each time, what follows from them, and the damping of the mode."""
@@ -212,18 +241,20 @@ class DesignFile(Record):
     name: Annotated[str, NAME]
     generator: Annotated[str, TEXT]
     source: Annotated[str | None, optional(TEXT)]
-    law: Annotated[str, word("law for this version", LAWS)]
+    law: Annotated[str, word("law", LAWS)]
     tick_s: Annotated[float | None, optional(POSITIVE)]
     number: Annotated[str, word("number type", NUMBER_TYPES)]
     plant: Annotated[PlantRecord, one(PlantRecord)]
     drive: Annotated[DriveRecord, one(DriveRecord)]
     shapers: Annotated[tuple[ShaperRecord, ...], several(one(ShaperRecord), at_least=1, at_most=MAX_SHAPERS)]
     bank: Annotated[BankRecord | None, optional(one(BankRecord))]
+    clock: Annotated[ClockRecord | None, optional(one(ClockRecord))] = None
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
         """Require what no record sees by itself: between shapers, tick, drive and bank."""
         if self.bank is not None and len(self.bank.labels) != len(self.shapers):
             yield "bank.labels", f"has {len(self.bank.labels)} values, there are {len(self.shapers)} shapers"
+        yield from self._phase_clock()
         if self.number == "int32" and self.drive.counts_per_m_s is None:
             yield "drive.counts_per_m_s", 'is null, and number = "int32" computes in counts'
         names = [shaper.name.lower() for shaper in self.shapers]
@@ -231,19 +262,45 @@ class DesignFile(Record):
             if names[index] in names[:index]:
                 yield f"shapers[{index}].name", f"is also the name of shapers[{names.index(names[index])}]"
             yield from _taps(f"shapers[{index}].taps", shaper.taps, self.tick_s)
+            yield from _law(f"shapers[{index}].taps", shaper.taps, self.law)
             yield from _whole(f"shapers[{index}].taps", shaper.taps, contactor=self.drive.contactor)
 
+    def _phase_clock(self) -> Iterator[tuple[str, str]]:
+        """Require what the phase clock needs exactly where it is the law."""
+        needs: dict[str, object] = {
+            "clock": self.clock,
+            "tick_s": self.tick_s,
+            "plant.rope_length_m": self.plant.rope_length_m,
+            "plant.hoist_speed_m_s": self.plant.hoist_speed_m_s,
+        }
+        if self.law == "phase":
+            for key, value in needs.items():
+                if value is None:
+                    yield key, 'is null, and law = "phase" needs it'
+        elif self.clock is not None:
+            yield "clock", f'must be null: law = "{self.law}"'
 
-def _taps(key: str, taps: TapsRecord | None, tick_s: float | None) -> Iterator[tuple[str, str]]:
+
+def _law(key: str, taps: TapsRecord | PhaseTapsRecord | None, law: str) -> Iterator[tuple[str, str]]:
+    if taps is not None and (law == "phase") != isinstance(taps, PhaseTapsRecord):
+        wanted = "phases_rad" if law == "phase" else "delays_ticks"
+        yield key, f'must have {wanted}: law = "{law}"'
+
+
+def _taps(
+    key: str, taps: TapsRecord | PhaseTapsRecord | None, tick_s: float | None
+) -> Iterator[tuple[str, str]]:
     if (taps is None) != (tick_s is None):
         there, null = ("tick_s", key) if taps is None else (key, "tick_s")
         yield key, f"{null} is null and {there} is not: both or neither"
-    elif taps is not None and tick_s is not None:
+    elif isinstance(taps, TapsRecord) and tick_s is not None:
         for figure, reason in _moments(taps, [delay * tick_s for delay in taps.delays_ticks]):
             yield f"{key}.{figure}", reason
 
 
-def _whole(key: str, taps: TapsRecord | None, *, contactor: bool) -> Iterator[tuple[str, str]]:
+def _whole(
+    key: str, taps: TapsRecord | PhaseTapsRecord | None, *, contactor: bool
+) -> Iterator[tuple[str, str]]:
     """Require that a contactor drive is only ever asked for 0 or full speed."""
     if contactor and taps is not None and any(abs(amplitude) != 1.0 for amplitude in taps.amplitudes):
         yield f"{key}.amplitudes", "must be 1 and -1: a contactor drive gives 0 or full speed"

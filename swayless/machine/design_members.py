@@ -59,6 +59,8 @@ DAMPING_RANGE = ruled(several(DAMPING, at_least=2, at_most=2), rising_pair)
 TIMES = ruled(several(FINITE, at_least=1, at_most=MAX_IMPULSES), rising_from_zero)
 AMPLITUDES = ruled(several(AMPLITUDE, at_least=1, at_most=MAX_IMPULSES), sums_to_one)
 DELAYS = ruled(several(Member(integer(0, 2**31 - 1)), at_least=1, at_most=MAX_IMPULSES), rising_from_zero)
+PER_RAD = Member(integer(1, 2**53))
+QUANTA = several(Member(integer(1, 2**22)), at_least=2, at_most=4097)
 TAP_AMPLITUDES = ruled(
     several(Member(AMPLITUDE.check), at_least=1, at_most=MAX_IMPULSES), sums_to_one_exactly
 )

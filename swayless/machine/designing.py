@@ -5,12 +5,13 @@ Not for: the mathematics (`swayless.design`) or the layout of the file (`swayles
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import swayless
 from swayless.errors import DesignError
 from swayless.machine.banking import design_bank
 from swayless.machine.design_document import (
+    ClockRecord,
     DesignFile,
     DoublePendulumRecord,
     DriveRecord,
@@ -20,10 +21,12 @@ from swayless.machine.design_document import (
 from swayless.machine.design_file import as_stored
 from swayless.machine.drive_section import DriveSection
 from swayless.machine.machine_file import Machine
+from swayless.machine.phase_row import clock_of, design_phase_row
 from swayless.machine.plant_section import PlantSection, rope_bands
 from swayless.machine.row_design import design_of
-from swayless.machine.row_section import Row
-from swayless.machine.shaper_record import shaper_record
+from swayless.machine.row_section import Row, RowSection
+from swayless.machine.running import most_phase_rad
+from swayless.machine.shaper_record import phase_record, shaper_record
 
 GENERATOR = f"swayless {swayless.__version__}"
 """What a design file says of who made it."""
@@ -49,7 +52,11 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
     for position, row in enumerate(machine.rows, start=1):
         on_row(row.name)
         try:
-            records.append(design_row(row, tick_s=tick_s, contactor=contactor))
+            records.append(
+                _phase_row(row, machine)
+                if machine.controller.law == "phase"
+                else design_row(row, tick_s=tick_s, contactor=contactor)
+            )
         except DesignError as error:
             raise DesignError(f'{machine.source}: [[row]] {position} ("{row.name}"): {error}') from error
     if machine.bank is not None:
@@ -70,6 +77,7 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
         drive=drive_record(machine.drive),
         shapers=tuple(records),
         bank=bank,
+        clock=_clock_record(machine, records) if machine.controller.law == "phase" else None,
     )
     return as_stored(design)
 
@@ -103,7 +111,7 @@ def design_mode(row: Row, *, drive: DriveSection, name: str, tick_s: float | Non
         law="fixed",
         tick_s=tick_s,
         number=number,
-        plant=PlantRecord(kind, row.rope_range_m, row.frequency_range_hz, row.damping_ratios[0], None),
+        plant=PlantRecord(kind, row.rope_range_m, row.frequency_range_hz, row.damping_ratios[0], None, None),
         drive=drive_record(drive),
         shapers=(design_row(row, tick_s=tick_s, contactor=drive.contactor),),
         bank=None,
@@ -131,11 +139,41 @@ def design_row(row: Row, *, tick_s: float | None, contactor: bool = False) -> Sh
     return shaper_record(row, design_of(row, tick_s=tick_s, contactor=contactor))
 
 
+def _phase_row(row: Row, machine: Machine) -> ShaperRecord:
+    """Design one row for every rope of a machine."""
+    assert isinstance(row, RowSection)  # noqa: S101 - the phase clock's rows are of named families
+    controller = machine.controller
+    made = design_phase_row(row, machine.plant, tick_s=controller.tick_s, number=controller.number)
+    return phase_record(row, made, machine.plant)
+
+
+def _clock_record(machine: Machine, records: Sequence[ShaperRecord]) -> ClockRecord:
+    """Give the table of the clock that all rows share."""
+    plant, controller = machine.plant, machine.controller
+    assert plant.rope_length_m is not None  # noqa: S101 - checked when the file was read
+    assert plant.hoist_speed_m_s is not None  # noqa: S101 - as above
+    _, clock = clock_of(
+        plant.rope_length_m,
+        plant.hoist_speed_m_s,
+        tick_s=controller.tick_s,
+        number=controller.number,
+        most_phase_rad=most_phase_rad(records),
+    )
+    return ClockRecord(round(1.0 / clock.quantum_rad), clock.nodes)
+
+
 def plant_record(plant: PlantSection) -> PlantRecord:
     """Give the plant as it stands in the design file."""
     pendulum = plant.double_pendulum
     if pendulum is None or plant.rope_length_m is None:
-        return PlantRecord(plant.kind, plant.rope_length_m, plant.frequency_hz, plant.damping_ratio, None)
+        return PlantRecord(
+            plant.kind,
+            plant.rope_length_m,
+            plant.frequency_hz,
+            plant.damping_ratio,
+            None,
+            plant.hoist_speed_m_s,
+        )
     upper = rope_bands(plant.rope_length_m, pendulum)[1]
     record = DoublePendulumRecord(
         sling_length_m=pendulum.sling_length_m,
@@ -144,7 +182,12 @@ def plant_record(plant: PlantSection) -> PlantRecord:
         upper_frequency_hz=(upper.low_hz, upper.high_hz),
     )
     return PlantRecord(
-        "double_pendulum", plant.rope_length_m, plant.frequency_hz, plant.damping_ratio, record
+        "double_pendulum",
+        plant.rope_length_m,
+        plant.frequency_hz,
+        plant.damping_ratio,
+        record,
+        plant.hoist_speed_m_s,
     )
 
 

@@ -13,7 +13,14 @@ from pathlib import Path
 from swayless.errors import FileError
 from swayless.machine.problems import nearest
 
-EXAMPLE_NAMES = ("srtc-gantry", "workshop-crane", "flexible-arm", "srtc-gantry-bank", "double-pendulum")
+EXAMPLE_NAMES = (
+    "srtc-gantry",
+    "workshop-crane",
+    "flexible-arm",
+    "srtc-gantry-bank",
+    "double-pendulum",
+    "hoisting-gantry",
+)
 """Names of the examples, in the order in which to read them."""
 
 _HERE = Path(__file__).parent

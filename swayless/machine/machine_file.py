@@ -16,6 +16,7 @@ from swayless.machine.bank_section import MAX_ROWS, BankSection, read_bank, with
 from swayless.machine.checks import machine_name
 from swayless.machine.controller_section import ControllerSection, check_counts, read_controller
 from swayless.machine.drive_section import DriveSection, read_drive
+from swayless.machine.phase_row import check_phase_plant, read_phase_row
 from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
 from swayless.machine.problems import RefusedError, Report, Table, plain, shown
 from swayless.machine.row_section import Row, read_row
@@ -149,11 +150,18 @@ def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] |
     controller = read_controller(controller_table)
     if drive is not None and controller_table.raw.get("number") == "int32":
         check_counts(drive_table, drive)
-    rows = _read_rows(kind, root, plant, contactor=drive is not None and drive.contactor)
+    follows_rope = controller is not None and controller.law == "phase"
+    if follows_rope and plant is not None:
+        check_phase_plant(plant, plant_table, contactor=drive is not None and drive.contactor)
+    rows = _read_rows(
+        kind, root, plant, contactor=drive is not None and drive.contactor, follows_rope=follows_rope
+    )
     bank_table = with_options(_section(root, "bank", {}), bank_options or {})
     bank = None
     if plant is not None and "bank" in root.raw:
         contactor = drive is not None and drive.contactor
+        if follows_rope:
+            root.place("[bank]").problem('law = "phase" follows the rope with one row: give a [[row]]')
         bank = read_bank(bank_table, plant=plant, plant_table=plant_table, contactor=contactor)
         bank_table.close()
     for table in (root, plant_table, drive_table, controller_table):
@@ -202,7 +210,7 @@ def _as_rows(value: object) -> list[dict[str, object]]:
 
 
 def _read_rows(
-    kind: PlantKind, root: Table, plant: PlantSection | None, *, contactor: bool
+    kind: PlantKind, root: Table, plant: PlantSection | None, *, contactor: bool, follows_rope: bool
 ) -> tuple[Row, ...]:
     seen: dict[str, int] = {}
     rows = []
@@ -214,7 +222,9 @@ def _read_rows(
         known_as = f" ({shown(name)})" if isinstance(name, str) else ""
         table = Table(raw, root.report, f"[[row]] {position}{known_as} ")
         rows.append(
-            read_row(
+            read_phase_row(table, plant)
+            if follows_rope
+            else read_row(
                 kind,
                 table,
                 damping_ratio=plant.damping_ratio if plant else 0.0,

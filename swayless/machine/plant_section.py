@@ -18,6 +18,7 @@ PlantKind: TypeAlias = Literal["crane", "arm"]
 LENGTH = quantity("length", 1e-3, 1e4)
 FREQUENCY = quantity("frequency", 1e-3, 1e4)
 DAMPING = quantity("ratio", 0.0, 1.0, below_high=True)
+HOIST_SPEED = quantity("speed", 1e-4, 1e2)
 MASS = quantity("mass", 1e-3, 1e9)
 
 _DOUBLE_PENDULUM = {"sling_length": LENGTH, "hook_mass": MASS, "load_mass": MASS}
@@ -61,6 +62,8 @@ class PlantSection:
         At least 0 and below 1.
     double_pendulum : DoublePendulum or None
         Sling and masses, if the file gives them.
+    hoist_speed_m_s : float or None
+        Fastest that the rope's length changes, if the file gives it.
     """
 
     kind: PlantKind
@@ -68,11 +71,12 @@ class PlantSection:
     frequency_hz: tuple[float, float]
     damping_ratio: float
     double_pendulum: DoublePendulum | None = None
+    hoist_speed_m_s: float | None = None
 
 
 def read_plant(kind: PlantKind, table: Table) -> PlantSection | None:
     """Read the keys of the plant section that say what swings; None where that stays unknown."""
-    rope_length_m = double_pendulum = None
+    rope_length_m = double_pendulum = hoist_speed_m_s = None
     if kind == "crane":
         double_pendulum = _read_double_pendulum(table)
         table.need_one_of("rope_length", "frequency")
@@ -81,12 +85,14 @@ def read_plant(kind: PlantKind, table: Table) -> PlantSection | None:
     else:
         frequency_hz = table.need("frequency", one_or_two(FREQUENCY))
     damping_ratio = table.take("damping_ratio", DAMPING, 0.0)
+    if kind == "crane":
+        hoist_speed_m_s = table.take("hoist_speed", HOIST_SPEED, None)
     if rope_length_m is not None:
         lower = rope_bands(rope_length_m, double_pendulum)[0]
         frequency_hz = lower.low_hz, lower.high_hz
     if frequency_hz is None or damping_ratio is None:
         return None
-    return PlantSection(kind, rope_length_m, frequency_hz, damping_ratio, double_pendulum)
+    return PlantSection(kind, rope_length_m, frequency_hz, damping_ratio, double_pendulum, hoist_speed_m_s)
 
 
 def rope_bands(

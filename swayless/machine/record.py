@@ -79,6 +79,19 @@ def one(cls: type[Record]) -> Member:
     return Member(lambda value, place: read_record(cls, value, place), document_of)
 
 
+def one_of(known: dict[str, type[Record]]) -> Member:
+    """Member that is one of several records, told apart by a key that only one of them has."""
+
+    def check(value: object, place: Place) -> Record | None:
+        found = [cls for key, cls in known.items() if isinstance(value, dict) and key in value]
+        if len(found) != 1:
+            place.wrong(value, f"must be an object with exactly one of {', '.join(known)}")
+            return None
+        return read_record(found[0], value, place)
+
+    return Member(check, document_of)
+
+
 def optional(member: Member) -> Member:
     """Member that may be null."""
     return Member(

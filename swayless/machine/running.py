@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from swayless.controller import (
     Bank,
+    NumberType,
     Row,
     ShaperSettings,
     SpeedLimits,
@@ -13,9 +16,18 @@ from swayless.controller import (
     number_type,
     quantised_taps,
 )
+from swayless.controller.phase_taps import phase_taps
 from swayless.design import GridShaper, Guarantee, Shaper
 from swayless.errors import ControllerError
-from swayless.machine.design_document import DesignFile, DriveRecord, GuaranteeRecord, ShaperRecord
+from swayless.machine.design_document import (
+    DesignFile,
+    DriveRecord,
+    GuaranteeRecord,
+    PhaseTapsRecord,
+    ShaperRecord,
+    TapsRecord,
+)
+from swayless.machine.phase_row import clock_of, taps_on_a_still_rope
 from swayless.plant import Band, Mode
 
 
@@ -37,9 +49,11 @@ def shaper_settings(design: DesignFile, *, number: str | None = None) -> ShaperS
     if design.tick_s is None:
         raise ControllerError("the design has no tick: design it with --tick, for instance --tick '10 ms'")
     kind = number_type(number or design.number)
+    if design.law == "phase":
+        return _phase_settings(design, kind)
     rows = []
     for shaper in design.shapers:
-        assert shaper.taps is not None  # noqa: S101 - the file has taps exactly where it has a tick
+        assert isinstance(shaper.taps, TapsRecord)  # noqa: S101 - the file has taps where it has a tick
         guarantee = _guarantee(shaper, shaper.taps.guarantee)
         delays, amplitudes = np.array(shaper.taps.delays_ticks), np.array(shaper.taps.amplitudes)
         try:
@@ -49,6 +63,45 @@ def shaper_settings(design: DesignFile, *, number: str | None = None) -> ShaperS
         rows.append(Row(shaper.name, shaper.family, taps))
     limits = command_limits(_speed_limits(design.drive, kind.is_integer), tick_s=design.tick_s, number=kind)
     return ShaperSettings(Bank(tuple(rows)), limits)
+
+
+def most_phase_rad(shapers: Sequence[ShaperRecord]) -> float:
+    """Largest phase of any tap of rows that follow the rope."""
+    return max(shaper.taps.phases_rad[-1] for shaper in shapers if isinstance(shaper.taps, PhaseTapsRecord))
+
+
+def _phase_settings(design: DesignFile, kind: NumberType) -> ShaperSettings:
+    """Make the constants of a block that follows the rope; the table as stored, where its type is stored."""
+    plant = design.plant
+    assert plant.rope_length_m is not None  # noqa: S101 - a design file with this law has it
+    assert plant.hoist_speed_m_s is not None  # noqa: S101 - as above
+    assert design.tick_s is not None  # noqa: S101 - as above
+    assert design.clock is not None  # noqa: S101 - as above
+    rope, clock = clock_of(
+        plant.rope_length_m,
+        plant.hoist_speed_m_s,
+        tick_s=design.tick_s,
+        number=kind.name,
+        most_phase_rad=most_phase_rad(design.shapers),
+    )
+    if kind.name == design.number:
+        stored = (1.0 / design.clock.quanta_per_rad, design.clock.tick_quanta)
+        if stored != (clock.quantum_rad, clock.nodes):
+            raise ControllerError("the table of the phase clock is not that of the stored ropes and tick")
+    rows = []
+    for shaper in design.shapers:
+        assert isinstance(shaper.taps, PhaseTapsRecord)  # noqa: S101 - a design file with this law has them
+        phases_rad, amplitudes = np.array(shaper.taps.phases_rad), np.array(shaper.taps.amplitudes)
+        guarantee = _guarantee(shaper, shaper.taps.guarantee)
+        try:
+            taps = phase_taps(phases_rad, amplitudes, tick_s=design.tick_s, guarantee=guarantee, clock=clock)
+        except ControllerError as error:
+            raise ControllerError(f'row "{shaper.name}": {error}') from error
+        rows.append(Row(shaper.name, shaper.family, taps))
+    limits = command_limits(
+        _speed_limits(design.drive, kind.is_integer), tick_s=design.tick_s, number=kind, on_grid=True
+    )
+    return ShaperSettings(Bank(tuple(rows)), limits, rope)
 
 
 def stored_shapers(design: DesignFile) -> tuple[Shaper, ...]:
@@ -80,14 +133,22 @@ def stored_taps(design: DesignFile) -> tuple[GridShaper, ...]:
         A design with a tick.
     """
     return tuple(
-        GridShaper(
-            np.array(shaper.taps.delays_ticks),
-            np.array(shaper.taps.amplitudes),
-            design.tick_s,
-            _guarantee(shaper, shaper.taps.guarantee),
-        )
+        _grid_shaper(shaper, shaper.taps, design.tick_s)
         for shaper in design.shapers
         if shaper.taps is not None and design.tick_s is not None
+    )
+
+
+def _grid_shaper(shaper: ShaperRecord, taps: TapsRecord | PhaseTapsRecord, tick_s: float) -> GridShaper:
+    """Give taps on ticks; those at phases as they release on the rope of the row's mode."""
+    if isinstance(taps, PhaseTapsRecord):
+        still = _guarantee(shaper, shaper.guarantee)
+        return taps_on_a_still_rope(taps.phases_rad, taps.amplitudes, still, tick_s)
+    return GridShaper(
+        np.array(taps.delays_ticks),
+        np.array(taps.amplitudes),
+        tick_s,
+        _guarantee(shaper, taps.guarantee),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 from swayless.design import (
@@ -12,7 +13,16 @@ from swayless.design import (
     peak_factor,
     rope_length_interval_m,
 )
-from swayless.machine.design_document import GuaranteeRecord, ModeRecord, ShaperRecord, TapsRecord
+from swayless.design.grid_shaper import decimal_amplitudes
+from swayless.machine.design_document import (
+    GuaranteeRecord,
+    ModeRecord,
+    PhaseTapsRecord,
+    ShaperRecord,
+    TapsRecord,
+)
+from swayless.machine.phase_row import PhaseDesign
+from swayless.machine.plant_section import PlantSection
 from swayless.machine.robust_row import RobustRow
 from swayless.machine.row_design import RowDesign
 from swayless.machine.row_section import Row, RowSection
@@ -46,6 +56,32 @@ def shaper_record(row: Row, design: RowDesign) -> ShaperRecord:
         guarantee=_guarantee_record(row, shaper.guarantee),
         taps=None if taps is None else _taps_record(row, taps),
     )
+
+
+def phase_record(row: RowSection, design: PhaseDesign, plant: PlantSection) -> ShaperRecord:
+    """Make the record of a row that follows the rope; its times are those on the longest.
+
+    Parameters
+    ----------
+    row : RowSection
+        What was asked for.
+    design : PhaseDesign
+        What was found.
+    plant : PlantSection
+        For the range of ropes.
+    """
+    record = shaper_record(row, RowDesign(design.shaper, None, None))
+    assert plant.rope_length_m is not None  # noqa: S101 - checked when the file was read
+    shaper, promise = design.shaper, _guarantee_record(row, design.taps.guarantee)
+    amplitudes = decimal_amplitudes(shaper.amplitudes)
+    taps = PhaseTapsRecord(
+        phases_rad=tuple((shaper.times_s * (2.0 * math.pi * row.mode.frequency_hz)).tolist()),
+        amplitudes=tuple(amplitudes.tolist()),
+        duration_s=shaper.duration_s,
+        overtravel_s=float(amplitudes @ shaper.times_s),
+        guarantee=replace(promise, rope_length_m=plant.rope_length_m),
+    )
+    return replace(record, taps=taps)
 
 
 def _parameters(row: Row) -> dict[str, Any]:

@@ -35,7 +35,8 @@ def test_in_a_wheel_the_folder_inside_the_package_is_read(
 
 def test_an_unknown_example_names_the_nearest() -> None:
     with pytest.raises(
-        FileError, match=r"example 'srtc-gantri': unknown; nearest: srtc-gantry, srtc-gantry-bank; known: "
+        FileError,
+        match="'srtc-gantri': unknown; nearest: srtc-gantry, srtc-gantry-bank, hoisting-gantry; known: ",
     ):
         example_text("srtc-gantri")
 
