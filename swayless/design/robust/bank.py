@@ -13,7 +13,7 @@ import numpy as np
 
 from swayless.design.robust.chain import Chain, Walk, is_too_long, next_start, same
 from swayless.design.robust.crossing import crossing
-from swayless.design.robust.demand import TOLERANCES, WIDEST_RATIO, FewerDoError, NotHeldError
+from swayless.design.robust.demand import TOLERANCES, WIDEST_RATIO, NotHeldError
 from swayless.design.robust.rows import ContinuousRows, Row, RowDesigner, TickRows
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
@@ -25,13 +25,12 @@ MOST_ROWS = 8
 """Positions of a knob, which no bank exceeds."""
 
 _ON_TIME = 1e-9  # relative: a row this little longer, or looser, than allowed is so by rounding
-_EQUAL = 1e-9  # of the log of the last row's duration: the rest of it is not used
+_EQUAL = 1e-9  # of the last row's excess: the rest of it is not used
 _APART = 1e-4  # relative, of tolerances between which the bank jumps to another one, as labels do
 _STEEPNESS = 0.5  # a usual d log(duration) / d log(tolerance), of the first steps
-_EQUAL_AT_FIRST = 1e-5  # the same in the first round of rows on ticks, which is not the last
 _UNBALANCED = 1e-6  # relative: rows on ticks are balanced until they leave the same to this
 _BALANCING_ROUNDS = 3
-_JUMPED = 1e-5  # of the log of the last row's duration: a shorter one shows a jump, which nothing balances
+_JUMPED = 1e-5  # of the last row's excess: more of it shows a jump, which nothing balances
 _SUGGESTION = 1e-2  # relative, of a duration in a message
 _LONGEST = 20.0  # times a duration that is too short: how far a message looks for one that is not
 
@@ -161,15 +160,14 @@ def cover_with(
     )
     handicap = np.zeros(number)  # log of what the taps of a row leave, over what the ideal row does
     banks: list[tuple[float, tuple[Row, ...]]] = []
-    size, near = math.log(TOLERANCES[0]), _EQUAL if isinstance(rows, ContinuousRows) else _EQUAL_AT_FIRST
+    size, near = math.log(TOLERANCES[0]), _EQUAL
     for _ in range(_BALANCING_ROUNDS):
-        size, (designs, excess) = _least_tolerance(chain, handicap, allowed_s, size, near)
+        size, (designs, rest, excess) = _least_tolerance(chain, handicap, allowed_s, size, near)
         made = list[Row]()
-        for design in designs[:-1]:
+        for design in designs:
             made.append(rows.follow(design))
             on_row(len(made))
-        rest = designs[-1].shaper.guarantee.band
-        made.append(_least_rest(rows, rest, TOLERANCES[1], allowed_s) or rows.follow(designs[-1]))
+        made.append(_least_rest(rows, rest, TOLERANCES[1], allowed_s) or rows.least(allowed_s, rest))
         on_row(number)
         sizes = np.log([rows.promise_of(row).tolerance for row in made])
         banks.append((float(sizes.max()), tuple(made)))
@@ -201,23 +199,22 @@ def _least_tolerance(
 
 
 def _fits(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s: float) -> bool:
-    """Whether one row in continuous time holds all that is left."""
-    if rest.high_hz > WIDEST_RATIO * rest.low_hz:
-        return False
-    try:
-        shortest_s = rows.ideal.shortest(rest, tolerance).shaper.duration_s
-    except NotHeldError:  # by so many impulses
-        return False
-    except FewerDoError as fewer:  # in the shortest time; a longer one may need as many as asked for
-        shortest_s = fewer.duration / rest.low_hz
-    return shortest_s <= duration_s * (1.0 + _ON_TIME)
+    """Whether one row of a duration, in continuous time, holds all that is left."""
+    narrow = rest.high_hz <= WIDEST_RATIO * rest.low_hz
+    return narrow and rows.ideal.excess(duration_s, rest, tolerance) <= _ON_TIME
 
 
 def _shortest_rest(
     rows: RowDesigner[Row], rest: Band, tolerance: float, longest_duration_s: float
 ) -> Row | None:
     """Design the shortest row for all that is left, if it is short enough."""
-    if not _fits(rows, rest, tolerance, longest_duration_s):
+    if rest.high_hz > WIDEST_RATIO * rest.low_hz:
+        return None
+    try:
+        ideal_s = rows.ideal.shortest(rest, tolerance).shaper.duration_s
+    except NotHeldError:  # by so many impulses
+        return None
+    if ideal_s > longest_duration_s * (1.0 + _ON_TIME):
         return None
     row = rows.shortest(rest, tolerance)
     return row if rows.duration_s_of(row) <= longest_duration_s * (1.0 + _ON_TIME) else None

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from swayless.design.robust.demand import RULES, TOLERANCES, WIDEST_RATIO, NotHeldError
+from swayless.design.robust.demand import RULES, TOLERANCES, WIDEST_RATIO
 from swayless.design.robust.exact import worst_at_ends
 from swayless.design.robust.rows import ContinuousRows
 from swayless.design.robust.specified import RobustDesign
@@ -52,13 +52,16 @@ class Walk(NamedTuple):
     Parameters
     ----------
     designs : list of RobustDesign
-        By rising frequency.
+        All but the last one, by rising frequency.
+    rest : Band
+        What is left to the last one.
     excess : float
-        Log of how much longer than allowed the last row must be. Negative infinity where fewer rows do;
-        infinity where a row holds nothing, or far too little is held.
+        How far the last row is from holding that: `ContinuousRows.excess`. Negative infinity where fewer rows
+        do; infinity where a row holds nothing, or far too little is held.
     """
 
     designs: list[RobustDesign]
+    rest: Band
     excess: float
 
 
@@ -84,24 +87,18 @@ class Chain:
     def walk(self, tolerances: Sequence[float], duration_s: float) -> Walk:
         """Put as many rows as tolerances one after the other."""
         allowed = [min(max(tolerance, TOLERANCES[0]), TOLERANCES[1]) for tolerance in tolerances]
-        designs: list[RobustDesign] = []
-        start_hz = self.low_hz
+        designs, rest = list[RobustDesign](), Band(self.low_hz, self.high_hz)
         for tolerance in allowed[:-1]:
             try:
-                design = self.rows.widest(duration_s, start_hz, tolerance)
+                design = self.rows.widest(duration_s, rest.low_hz, tolerance)
                 end_hz = design.shaper.guarantee.band.high_hz
                 if end_hz >= self.high_hz:
-                    return Walk(designs, -math.inf)
-                start_hz = next_start(self.next_start_hz, start_hz, end_hz)
+                    return Walk(designs, rest, -math.inf)
+                rest = replace(rest, low_hz=next_start(self.next_start_hz, rest.low_hz, end_hz))
             except DesignError:
-                endless = is_too_long(self.rows, start_hz, tolerance, duration_s)
-                return Walk(designs, -math.inf if endless else math.inf)
+                endless = is_too_long(self.rows, rest.low_hz, tolerance, duration_s)
+                return Walk(designs, rest, -math.inf if endless else math.inf)
             designs.append(design)
-        rest = Band(start_hz, self.high_hz)
         if rest.high_hz > WIDEST_RATIO * rest.low_hz:
-            return Walk(designs, math.inf)
-        try:
-            last = self.rows.shortest(rest, allowed[-1])
-        except NotHeldError:
-            return Walk(designs, math.inf)
-        return Walk([*designs, last], math.log(last.shaper.duration_s / duration_s))
+            return Walk(designs, rest, math.inf)
+        return Walk(designs, rest, self.rows.excess(duration_s, rest, allowed[-1]))

@@ -47,13 +47,13 @@ class FewerDoError(DesignError):
     ----------
     message : str
         Which number does.
-    duration : float
-        What they last, in periods of the lowest frequency.
+    worst : float
+        What they leave, as a ratio.
     """
 
-    def __init__(self, message: str, duration: float) -> None:
+    def __init__(self, message: str, worst: float) -> None:
         super().__init__(message)
-        self.duration = duration
+        self.worst = worst
 
 
 @dataclass(frozen=True)

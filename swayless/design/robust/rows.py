@@ -5,9 +5,11 @@ Not for: how many rows there are and where they meet, which is `bank`.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
+from swayless.design.robust.demand import FewerDoError
 from swayless.design.robust.specified import (
     Amplitudes,
     RobustDesign,
@@ -117,6 +119,20 @@ class ContinuousRows:
             amplitudes=self.amplitudes,
             impulses=self.impulses,
         )
+
+    def excess(self, duration_s: float, band: Band, tolerance: float) -> float:
+        """Tell how far a row of a duration is from holding a band, as a logarithm: it does if at most 0.
+
+        Of the duration that it needs, or, of so many impulses, which may hold it in less time but not in
+        more, of what they leave.
+        """
+        if self.impulses is None:
+            return math.log(self.shortest(band, tolerance).shaper.duration_s / duration_s)
+        try:
+            left = self.least(duration_s, band).shaper.guarantee.tolerance
+        except FewerDoError as fewer:
+            left = fewer.worst
+        return math.log(left / tolerance)
 
     def follow(self, design: RobustDesign) -> RobustDesign:
         """Return the design itself."""

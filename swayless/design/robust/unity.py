@@ -180,7 +180,7 @@ class _Search:
         raise FewerDoError(
             f"impulses = {self.count}: no better than {optimum.times.size}, because two of them would cancel "
             f"each other; ask for {optimum.times.size}",
-            optimum.duration,
+            optimum.worst,
         )
 
     def _refusal(self, worst: float) -> DesignError:

@@ -66,6 +66,13 @@ def test_kriikku_section_iii_three_rows_of_3_s_hold_5_382_percent() -> None:
     np.testing.assert_allclose(tolerances, tolerances[0], rtol=1e-7)
 
 
+def test_kriikku_section_iii_rows_of_five_impulses_reach_these_lengths() -> None:
+    rows = cover(LOW_HZ, HIGH_HZ, ContinuousRows("unity-magnitude", impulses=5), duration_s=3.0)
+    assert _reach_ft(rows) == pytest.approx([24.654, 20.230, 9.830, 9.0], abs=ROUNDING_FT)
+    assert all(np.array_equal(row.shaper.amplitudes, [1.0, -1.0, 1.0, -1.0, 1.0]) for row in rows)
+    assert all(_worst(row) <= row.shaper.guarantee.tolerance * TOUCH for row in rows)
+
+
 def test_rows_meet_and_hold_the_tolerance() -> None:
     rows = cover(0.2, 0.6, BOUNDED, tolerance=0.05, longest_duration_s=2.6)
     bands = [row.shaper.guarantee.band for row in rows]
