@@ -149,4 +149,4 @@ class StModel:
     @cached_property
     def st_scratch(self) -> list[Variable]:
         """What a call computes on its way."""
-        return scratch_of(self.types, self.features)
+        return scratch_of(self.settings, self.types, self.features)

@@ -90,7 +90,15 @@ def phase_tables(settings: ShaperSettings, types: StTypes) -> list[Table]:
 
 
 def most_cells_a_tick(clock: PhaseClock) -> int:
-    """Cells of the ring that a tap can pass in a tick: at least 2, as loops of one trip are not portable.
+    """Bound the cells of the ring that a tap passes in a tick.
+
+    A tap passes a cell while less than the quanta of the tick lie ahead, and each cell adds the quanta of its
+    own tick: no fewer than on the longest rope. At least 2, as loops of one trip are not portable.
+
+    Parameters
+    ----------
+    clock : PhaseClock
+        The clock.
 
     Examples
     --------

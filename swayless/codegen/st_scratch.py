@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swayless.codegen.features import Features
 from swayless.codegen.st_types import StTypes, Variable, parts_in_use
+from swayless.controller.settings import ShaperSettings
 
 SCRATCH = (
     ("real", "Accepted", "checked command", "all"),
@@ -88,15 +89,22 @@ SCRATCH = (
 """Kind, name, comment, and the part of the law that needs each."""
 
 
-def scratch_of(types: StTypes, features: Features) -> list[Variable]:
+def scratch_of(settings: ShaperSettings, types: StTypes, features: Features) -> list[Variable]:
     """List what a call computes on its way.
 
     Parameters
     ----------
+    settings : ShaperSettings
+        The block.
     types : StTypes
-        Types of the block.
+        Its types.
     features : Features
         Parts of the law in use.
     """
     used = parts_in_use(features)
-    return [Variable(name, types.type_of(kind), doc) for kind, name, doc, part in SCRATCH if part in used]
+    scalars = [Variable(name, types.type_of(kind), doc) for kind, name, doc, part in SCRATCH if part in used]
+    if settings.clock is None:
+        return scalars
+    most_taps = max(len(table.lags) for table in settings.row_tables)
+    weights = types.array_of("real", most_taps - 1)
+    return [*scalars, Variable("Weights", weights, "weights of the taps for a change now")]

@@ -84,7 +84,6 @@ def _phase_arrays(settings: ShaperSettings, types: StTypes) -> list[Variable]:
         Variable("Rates", ring, "ring: hoist speed times quanta of the tick"),
         Variable("TapCells", types.array_of("word", most_taps - 1), "cell that each tap reaches next"),
         Variable("TapAhead", types.array_of("word", most_taps - 1), "[quanta] phase until then"),
-        Variable("Weights", types.array_of("real", most_taps - 1), "weights of the taps for a change now"),
     ]
 
 
