@@ -9,17 +9,20 @@ from swayless.controller import CommandShaper, ShaperInput
 from swayless.controller.rope import MM_PER_M
 from swayless.plant import STANDARD_GRAVITY_M_S2
 from swayless.plant.simulation import HoistingCrane
+from tests.properties.crane_moves import (
+    COMMAND_M_S,
+    LEAD_S,
+    LONG_M,
+    MOVE_S,
+    SHORT_M,
+    SPEED_M_S,
+    TICK_S,
+    TIME_S,
+    hoist,
+    residuals,
+)
 from tests.properties.strategies import NUMBERS
 from tests.unit.controller.blocks import phase_block, run
-
-TICK_S = 0.01
-SPEED_M_S, HOIST_M_S = 0.6, 0.3
-LONG_M, SHORT_M = 8.84, 3.74
-LEAD_S, MOVE_S, TAIL_S = 5.0, 12.0 / SPEED_M_S, 14.0
-"""Before the move, the move of 12 m, and two periods of the longest rope."""
-
-TIME_S = TICK_S * np.arange(round((LEAD_S + MOVE_S + TAIL_S) / TICK_S))
-COMMAND_M_S = np.where((TIME_S >= LEAD_S) & (TIME_S < LEAD_S + MOVE_S - TICK_S / 2), SPEED_M_S, 0.0)
 
 STEADY_S = (-4.0, -1.0)
 """Hoists of 17 s that start before the move and stop in the cruise, where nothing swings."""
@@ -29,15 +32,6 @@ WITHIN_S = (0.7, 1.5, 3.0, 8.0)
 
 HOISTS = [(LONG_M, SHORT_M, start) for start in STEADY_S + WITHIN_S]
 HOISTS += [(SHORT_M, LONG_M, start) for start in STEADY_S + WITHIN_S]
-
-
-def hoist(start_m, end_m, start_s):
-    """Rope lengths at the beginning of each tick and the end, and hoist speeds."""
-    speed = math.copysign(HOIST_M_S, end_m - start_m)
-    first = round((LEAD_S + start_s) / TICK_S)
-    speeds = np.zeros(TIME_S.size)
-    speeds[first : first + round((end_m - start_m) / speed / TICK_S)] = speed
-    return start_m + np.concatenate([[0.0], np.cumsum(speeds) * TICK_S]), speeds
 
 
 def references(settings, commands_m_s, lengths_m, speeds_m_s):
@@ -56,10 +50,6 @@ def references(settings, commands_m_s, lengths_m, speeds_m_s):
         for command, length, speed in zip(*rows, strict=True)
     ]
     return np.array([float(out.reference) for out in run(CommandShaper(settings), inputs)]) / per_unit
-
-
-def residuals(references_m_s, ropes_m):
-    return HoistingCrane().simulate(references_m_s, ropes_m, tick_s=TICK_S).residual_ratio(SPEED_M_S)
 
 
 def moved(number):
