@@ -142,6 +142,11 @@ def check_amplitudes(amplitudes: str, impulses: int | None) -> None:
         return
     if amplitudes != "unity-magnitude":
         raise DesignError(f"impulses = {impulses!r}: only with amplitudes = 'unity-magnitude'")
+    check_impulses(impulses)
+
+
+def check_impulses(impulses: int) -> None:
+    """Refuse a number of impulses +1, -1, ..., +1 that there cannot be."""
     if impulses < _FEWEST_IMPULSES or impulses % 2 == 0:
         raise DesignError(f"impulses = {impulses!r}: must be odd and at least {_FEWEST_IMPULSES}")
 

@@ -7,10 +7,11 @@ types (the controller's taps).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from swayless.design.grid_shaper import GridShaper, check_tick
+from swayless.design.robust.demand import TOLERANCES
 from swayless.design.robust.specified import (
     Amplitudes,
     RobustDesign,
@@ -19,11 +20,17 @@ from swayless.design.robust.specified import (
     specified_insensitivity,
 )
 from swayless.design.robust.tick_program import TickProgram
-from swayless.design.robust.whole_ticks import whole_tick_fixed_duration, whole_tick_taps
+from swayless.design.robust.whole_ticks import (
+    CoarseTickError,
+    whole_tick_fixed_duration,
+    whole_tick_taps,
+)
 from swayless.errors import DesignError
 from swayless.plant import Band
 
 _MOST_EXTRA = 8  # ticks beyond the ideal duration; where these do not help, the tick is too coarse
+_ADVISED = 3  # tolerances tried for a message
+_STEP = 1e-3  # of such tolerances
 _ON_TICK = 1e-9  # relative: a duration this little below a whole tick is on it
 
 
@@ -89,11 +96,15 @@ def specified_insensitivity_on_ticks(
     ([0, 9, 10, 19], 0.941)
     """
     check_tick(tick_s)
-    ideal = specified_insensitivity(
-        band, tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes, impulses=impulses
-    )
+
+    def designed(tolerance: float) -> RobustDesign:
+        return specified_insensitivity(
+            band, tolerance=tolerance, damping_ratio=damping_ratio, amplitudes=amplitudes, impulses=impulses
+        )
+
+    ideal = designed(tolerance)
     if amplitudes == "unity-magnitude":
-        return RobustTaps(whole_tick_taps(ideal.shaper, tick_s), ideal)
+        return _on_whole_ticks(ideal, tick_s, designed)
     program, promise = TickProgram(tick_s, amplitudes, ideal.shaper), ideal.shaper.guarantee
     fewest = max(1, math.ceil(ideal.lower_bound_s / tick_s))
     for last in range(fewest, fewest + _MOST_EXTRA + 1):
@@ -105,6 +116,27 @@ def specified_insensitivity_on_ticks(
         f"tick_s = {tick_s!r}: {fewest + _MOST_EXTRA} ticks do not hold {what} at {100 * tolerance:g} %; a "
         f"finer tick does (the ideal shaper lasts {ideal.shaper.duration_s:.6g} s)"
     )
+
+
+def _on_whole_ticks(
+    ideal: RobustDesign, tick_s: float, designed: Callable[[float], RobustDesign]
+) -> RobustTaps:
+    """Move an ideal shaper to whole ticks, or say at which tolerance a shaper can be, having tried it."""
+    try:
+        return RobustTaps(whole_tick_taps(ideal.shaper, tick_s), ideal)
+    except CoarseTickError as refusal:
+        worst = refusal.worst
+        for _ in range(_ADVISED):
+            enough = math.ceil(worst / _STEP) * _STEP
+            if enough > TOLERANCES[1]:
+                break
+            try:
+                whole_tick_taps(designed(enough).shaper, tick_s)
+            except CoarseTickError as again:
+                worst = max(again.worst, enough + _STEP)
+            else:
+                raise DesignError(f"{refusal}, a tolerance of {enough:g} does") from refusal
+        raise
 
 
 def fixed_duration_on_ticks(

@@ -17,7 +17,7 @@ import numpy as np
 
 from swayless.design.minimax import AmplitudeRule
 from swayless.design.robust import exact
-from swayless.design.robust.demand import FewerDoError, NotHeldError
+from swayless.design.robust.demand import FewerDoError, NotHeldError, check_impulses
 from swayless.design.robust.descent import Trials, alternating, descended
 from swayless.design.robust.lines import Line
 from swayless.design.robust.search import candidates, is_near, peaks_of
@@ -75,6 +75,7 @@ def shortest(lines: Sequence[Line], tolerance: float, count: int) -> Optimum:
     >>> round(shortest([Line(1.0, 1.2, 0.0)], 0.05, 5).duration, 4)
     0.598
     """
+    check_impulses(count)
     return _Search(Goal.DURATION, tuple(lines), 1.0, tolerance, count).best()
 
 
@@ -106,6 +107,7 @@ def widest(duration: float, damping_ratio: float, tolerance: float, count: int) 
     >>> round(float(widest(0.5, 0.0, 0.05, 5).frequency[-1]), 3)
     1.084
     """
+    check_impulses(count)
     return _Search(Goal.REACH, (Line(1.0, 1.0, damping_ratio),), duration, tolerance, count).best()
 
 
@@ -129,6 +131,7 @@ def least(lines: Sequence[Line], duration: float, count: int) -> Optimum:
     >>> round(least([Line(1.0, 1.1, 0.0)], 0.5, 5).worst, 4)
     0.0585
     """
+    check_impulses(count)
     return _Search(Goal.WORST, tuple(lines), duration, 1.0, count).best()
 
 
@@ -210,7 +213,7 @@ class _Search:
         return np.linspace(-math.log(_LARGEST_RATIO), 0.0, _SIZES) if self.goal is Goal.REACH else np.zeros(1)
 
     def _found(self) -> tuple[Optimum | None, float, float]:
-        """Find the best optimum, the least size at which impulses meet, and the least residual seen."""
+        """Find the best optimum, the least size at which impulses meet, and the least residual."""
         trials, size, least_worst = self._met()
         worst = trials.worst()
         met = np.abs(np.log(worst / self.tolerance)) < _NEAR
@@ -234,15 +237,30 @@ class _Search:
         chosen = (order + _DRAWN * np.arange(sizes.size)[:, np.newaxis]).ravel()
         trials, size = _distinct(descended(trials.chosen(chosen)), size[chosen])
         worst = trials.worst()
-        least_worst = float(worst.min())
+        least_worst = self._left(trials, size, worst)
         near = np.abs(np.log(worst / self.tolerance)).argsort(kind="stable")[:_PURSUED]
         trials, size = trials.chosen(near), size[near]
         for longest in () if self.goal is Goal.WORST else _LONGEST_MOVES:
             move = np.clip(self._move(trials, size), -longest, longest)
             size = np.clip(size + move, sizes[0], sizes[-1])
             trials = descended(self._trials(trials.times, size), again=True)
-            least_worst = min(least_worst, float(trials.worst().min()))
+            least_worst = min(least_worst, self._left(trials, size, trials.worst()))
         return trials, size, least_worst
+
+    def _left(self, trials: Trials, size: FloatArray, worst: FloatArray) -> float:
+        """Measure what the best trial leaves at its peaks, which lie between the samples."""
+        best = int(worst.argmin())
+        lines, duration, _ = self._of_size(float(size[best]))
+        times = trials.times[best] * duration
+        return float(np.abs(peaks_of(times, alternating(self.count), lines).value).max())
+
+    def _of_size(self, size: float) -> tuple[tuple[Line, ...], float, float]:
+        """Lines, duration and worst that a size stands for."""
+        if self.goal is Goal.DURATION:
+            return self.lines, math.exp(size), self.tolerance
+        if self.goal is Goal.REACH:
+            return (replace(self.lines[0], high=math.exp(-size)),), self.duration, self.tolerance
+        return self.lines, self.duration, math.exp(size)
 
     def _move(self, trials: Trials, size: FloatArray) -> FloatArray:
         """Newton's step towards the tolerance, from above it; from below it, towards smaller sizes."""
@@ -279,13 +297,7 @@ class _Search:
 
     def _polished(self, times: FloatArray, size: float) -> Iterator[Optimum]:
         """Polish one trial; nothing comes of one that belongs to no optimum."""
-        lines, duration, worst = self.lines, self.duration, self.tolerance
-        if self.goal is Goal.DURATION:
-            duration = math.exp(size)
-        elif self.goal is Goal.REACH:
-            lines = (replace(lines[0], high=math.exp(-size)),)
-        else:
-            worst = math.exp(size)
+        lines, duration, worst = self._of_size(size)
         start = _guess(times * duration, lines, worst)
         for candidate in candidates(start, self.goal) if start.weights.size else ():
             optimum = self._settled(candidate, lines)

@@ -35,6 +35,22 @@ _FAMILIES = ("um-zv", "um-zvd", "um-ei")
 Delays = NDArray[np.int64]
 
 
+class CoarseTickError(DesignError):
+    """Whole ticks do not keep a promise.
+
+    Parameters
+    ----------
+    message : str
+        Which.
+    worst : float
+        The least that they leave, as a ratio.
+    """
+
+    def __init__(self, message: str, worst: float) -> None:
+        super().__init__(message)
+        self.worst = worst
+
+
 @dataclass(frozen=True, eq=False)
 class _Impulses:
     """Impulses whose guarantee is still to be proved."""
@@ -63,8 +79,10 @@ def whole_tick_taps(shaper: Shaper, tick_s: float) -> GridShaper:
 
     Raises
     ------
+    CoarseTickError
+        If no delays found keep the tolerance; the message says what they leave.
     DesignError
-        If the amplitudes are others, or no delays found keep the tolerance; the message says what they leave.
+        If the amplitudes are others.
 
     Examples
     --------
@@ -88,10 +106,11 @@ def whole_tick_taps(shaper: Shaper, tick_s: float) -> GridShaper:
         if worst <= promise.tolerance * (1.0 + TOUCH_SLACK):
             return _kept(delays, tick_s, promise, worst)
     delays, worst = min(found, key=lambda each: each[1])
-    raise DesignError(
+    raise CoarseTickError(
         f"{shaper.family}: on whole ticks of {tick_s:g} s {shaper.times_s.size} impulses leave "
         f"{100.0 * worst:.4g} % at best (delays {delays.tolist()}), and {100.0 * promise.tolerance:g} % is "
-        "promised; a finer tick, or a larger tolerance, may do"
+        "promised; a finer tick may do",
+        worst,
     )
 
 

@@ -103,3 +103,11 @@ def test_unity_magnitude_on_ticks_switches_on_whole_ticks_alone() -> None:
     design = fixed_duration_on_ticks(3.0, 0.17, 0.01, amplitudes="unity-magnitude")
     assert design.taps.amplitudes.tolist() == [(-1.0) ** k for k in range(design.taps.amplitudes.size)]
     assert _dense_worst(design.taps, design.taps.guarantee.band, 0.0) <= 0.05
+
+
+def test_the_refusal_of_whole_ticks_names_a_tolerance_that_does() -> None:
+    band, tick_s = Band(1.0, 1.3), 0.03
+    with pytest.raises(DesignError, match=r"leave 7\.639 % at best .* a tolerance of 0\.077 does"):
+        specified_insensitivity_on_ticks(band, tick_s, amplitudes="unity-magnitude")
+    design = specified_insensitivity_on_ticks(band, tick_s, tolerance=0.077, amplitudes="unity-magnitude")
+    assert design.taps.guarantee.worst_residual_ratio <= 0.077

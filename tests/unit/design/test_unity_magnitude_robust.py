@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from swayless.design.minimax import AmplitudeRule
-from swayless.design.robust import exact
+from swayless.design.robust import NotHeldError, exact
 from swayless.design.robust.lines import Line
 from swayless.design.robust.unity import least, shortest, widest
 from swayless.design.shaper import FloatArray
@@ -126,3 +126,15 @@ def test_too_many_impulses_are_refused_with_how_many_are_as_good() -> None:
 def test_a_duration_that_holds_nothing_is_refused() -> None:
     with pytest.raises(DesignError, match="on the lowest frequency at best"):
         widest(0.2, 0.0, 0.05, 5)
+
+
+def test_a_tolerance_missed_by_little_is_refused_with_what_is_left_at_the_peaks() -> None:
+    # Samples alone see 0.994 %, between which the peaks are higher.
+    with pytest.raises(NotHeldError, match=r"leave 1\.0\d % on the band at best"):
+        shortest([Line(1.0, 1.5, 0.0)], 0.01, 7)
+
+
+@pytest.mark.parametrize("count", [1, 4])
+def test_numbers_of_impulses_that_cannot_be_are_refused(count: int) -> None:
+    with pytest.raises(DesignError, match=rf"impulses = {count}: must be odd and at least 3"):
+        least([Line(1.0, 1.1, 0.0)], 0.5, count)
