@@ -46,7 +46,7 @@ class CClock:
     @property
     def c_lap_argument(self) -> str:
         """Whether a cell belongs to this lap; whole numbers do not ask."""
-        return "" if self._is_integer else ", cell <= s->head"
+        return "" if self._is_integer else ", s->next[later] <= s->head"
 
     @property
     def filter_templates(self) -> list[str]:

@@ -38,7 +38,7 @@ def integer_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant
     hoist, spans = integer_hoist(settings), settings.clock.cells_per_unit
     return [
         CConstant("uint64_t", "SPANS_PER_MM", f"UINT64_C({spans})", "spans of the table per mm, over 2^32"),
-        *(CConstant("uint32_t", name, f"{value}u", doc) for name, value, doc in _counters(hoist)),
+        *(CConstant("uint32_t", name, f"{value}u", doc) for name, value, doc in _counters()),
         *(
             CConstant("int64_t", name, f"INT64_C({value})", doc)
             for name, value, doc in (*_scales(settings), *_ratios(hoist))
@@ -46,13 +46,11 @@ def integer_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant
     ]
 
 
-def _counters(hoist: IntegerHoist) -> list[tuple[str, int, str]]:
+def _counters() -> list[tuple[str, int, str]]:
     return [
         ("SPAN_SHIFT", 32 - FRACTION_BITS, "from there to places in the table"),
         ("SHARE_BITS", FRACTION_BITS, "bits of a place within a span"),
         ("SHARE_HALF", 1 << (FRACTION_BITS - 1), "rounds to the nearest quantum"),
-        ("KICK_SHIFT", hoist.kick.shift, "KICK is 2 to this power too large"),
-        ("STRETCH_SHIFT", hoist.stretch_shift, "STRETCH is 2 to this power too large"),
     ]
 
 
@@ -67,6 +65,9 @@ def _scales(settings: ShaperSettings) -> list[tuple[str, int, str]]:
 def _ratios(hoist: IntegerHoist) -> list[tuple[str, int, str]]:
     return [
         ("KICK", hoist.kick.factor, "quantum / (9806.65 mm/s2 tick), scaled"),
+        ("KICK_SCALE", 1 << hoist.kick.shift, "KICK is so much too large"),
+        ("STRETCH_SCALE", 1 << hoist.stretch_shift, "STRETCH is so much too large"),
+        ("PER_SCALE", 1 << 22, "from 2^52 to 2^30"),
         ("PER_MOST", hoist.per_most, "2^52 / quanta of a tick on the shortest rope"),
         ("PER_FEWEST", hoist.per_fewest, "2^52 / quanta of a tick on the longest rope"),
         ("LOSS_RATIO", hoist.loss, "damping ratio of the swing, over 2^30"),

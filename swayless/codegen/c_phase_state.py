@@ -58,6 +58,30 @@ def phase_members(settings: ShaperSettings, types: CTypes) -> list[CField]:
     ]
 
 
+def phase_cells(settings: ShaperSettings, types: CTypes) -> list[CField]:
+    """List what a cell of the ring holds.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block, with a phase clock.
+    types : CTypes
+        Its types.
+    """
+    later, size = _later_taps(settings), f"[{types.name.upper()}_SHAPER_LATER_TAPS]"
+    over = " over 2^30" if types.number.is_integer else ""
+    parts = "part of each later tap" + (", scaled" if types.number.is_integer else "")
+    stretch = f"change of sqrt(rope length) it is made for{over}"
+    fields = [
+        CField(types.sum, "part", parts, size, elements=later),
+        CField(types.real, "stretch", stretch, size, elements=later),
+        CField("uint32_t", "gap", "quanta until the next cell"),
+    ]
+    if not types.number.is_integer:
+        fields.insert(2, CField(types.real, "inverse", "1 / gap"))
+    return fields
+
+
 def phase_ring(settings: ShaperSettings, types: CTypes) -> list[CField]:
     """List the ring of the phase clock and the pointers into it.
 
@@ -68,16 +92,14 @@ def phase_ring(settings: ShaperSettings, types: CTypes) -> list[CField]:
     types : CTypes
         Its types.
     """
-    cells, later = ring_length(settings), max(len(table.lags) for table in settings.row_tables) - 1
+    cells, later = ring_length(settings), _later_taps(settings)
     ring, taps = (f"[{types.name.upper()}_SHAPER_{size}]" for size in ("RING", "LATER_TAPS"))
-    parts = "parts of each change, by later tap" + (", scaled" if types.number.is_integer else "")
-    fields = [
-        CField(types.sum, "part", parts, taps + ring, elements=later * cells),
-        CField(types.real, "hoist_speeds", "hoist speed that they are made for", ring, elements=cells),
-        CField("uint32_t", "gap", "quanta until the next cell", ring, elements=cells),
-        CField("uint32_t", "cell", "cell that each later tap reaches next", taps, elements=later),
+    return [
+        CField(types.cell, "ring", "changes of the command under way", ring, elements=cells),
+        CField("uint32_t", "next", "cell that each later tap reaches next", taps, elements=later),
         CField("uint32_t", "ahead", "quanta until it does", taps, elements=later),
     ]
-    if not types.number.is_integer:
-        fields.insert(2, CField(types.real, "inverses", "1 / gap of each cell", ring, elements=cells))
-    return fields
+
+
+def _later_taps(settings: ShaperSettings) -> int:
+    return max(len(table.lags) for table in settings.row_tables) - 1

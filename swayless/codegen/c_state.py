@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from swayless.codegen.c_phase_state import phase_members, phase_ring, ring_length
+from swayless.codegen.c_phase_state import phase_cells, phase_members, phase_ring, ring_length
 from swayless.codegen.c_rope import rope_members
 from swayless.codegen.c_types import CField, CTypes
 from swayless.codegen.clock_names import clock_names
@@ -44,6 +44,7 @@ class CState:
         self._last = ring_length(settings) - 1
         self.inputs = [self._member(pin) for pin in input_pins(settings)]
         self.outputs = [self._member(pin) for pin in output_pins(settings)]
+        self.cells = [] if settings.clock is None else phase_cells(settings, types)
         rope = [] if settings.rope is None else rope_members(settings.rope, types)
         clock = self._sums() if settings.clock is None else phase_members(settings, types)
         self.members = [*clock, *self._commands(features), *rope, *self._buffers(), *self._flags(features)]
@@ -132,7 +133,8 @@ class CState:
         return -(-size // widest) * widest, widest
 
     def _size_of(self, c_type: str) -> tuple[int, int]:
-        structures = {self._types.input: self.inputs, self._types.output: self.outputs}
+        types = self._types
+        structures = {types.input: self.inputs, types.output: self.outputs, types.cell: self.cells}
         if c_type in structures:
             return self._layout(structures[c_type])
         width = SIZES_BYTES[self._types.plain_real if c_type == self._types.real else c_type]

@@ -60,6 +60,11 @@ class CTypes:
         """Structure of the outputs."""
         return f"{self.name}_shaper_output_t"
 
+    @property
+    def cell(self) -> str:
+        """Structure of a cell of the phase clock's ring."""
+        return f"{self.name}_shaper_cell_t"
+
     def literal(self, value: Any) -> str:
         """Literal of the number type."""
         return c_literal(value, self.number)

@@ -12,8 +12,8 @@ from tests.unit.controller.blocks import ZVD, block, phase_block
 
 
 def gantry(number):
-    """One zvd row, 10 ms, as in the example."""
-    return phase_block(number, family="zvd")
+    """One zvd row."""
+    return phase_block(number, family="zvd", tick_s=0.02)
 
 
 def everything(number):

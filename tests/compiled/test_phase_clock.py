@@ -72,8 +72,8 @@ CHANGES = {
     "what is owed does not put off rest": ("s->still_quanta = 0u;\n    }\n    for", "}\n    for"),
     "a tick counts for the next one's quanta": ("elapsed_quanta = s->quanta", "elapsed_quanta = quanta"),
     "a part is weighted for a rope that stays": (
-        "rate * crane_STRETCH[tap]",
-        "0.5 * rate * crane_STRETCH[tap]",
+        "s->rate * crane_STRETCH[tap]",
+        "0.5 * s->rate * crane_STRETCH[tap]",
     ),
     "a part is never corrected": ("due = part + more;", "due = part;"),
     "the mass of a lap is all mass": ("s->fresh_mass = s->fresh_mass - part;", "s->fresh_mass -= s->mass;"),
