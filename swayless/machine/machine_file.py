@@ -16,6 +16,7 @@ from swayless.machine.bank_section import MAX_ROWS, BankSection, read_bank, with
 from swayless.machine.checks import machine_name
 from swayless.machine.controller_section import ControllerSection, check_counts, read_controller
 from swayless.machine.drive_section import DriveSection, read_drive
+from swayless.machine.move_section import MoveSection, read_moves
 from swayless.machine.phase_row import check_phase_plant, read_phase_row
 from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
 from swayless.machine.problems import RefusedError, Report, Table, plain, shown
@@ -49,6 +50,8 @@ class Machine:
         The knob's positions from 1 on; position 0 is unshaped. Empty if there is a bank.
     bank : BankSection or None
         What to work the rows out from, if they are not written down.
+    moves : tuple of MoveSection
+        What to simulate; often none.
     """
 
     name: str
@@ -58,6 +61,7 @@ class Machine:
     controller: ControllerSection
     rows: tuple[Row, ...]
     bank: BankSection | None = None
+    moves: tuple[MoveSection, ...] = ()
 
 
 def load_machine(path: Path | str, bank_options: Mapping[str, object] | None = None) -> Machine:
@@ -164,11 +168,14 @@ def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] |
             root.place("[bank]").problem('law = "phase" follows the rope with one row: give a [[row]]')
         bank = read_bank(bank_table, plant=plant, plant_table=plant_table, contactor=contactor)
         bank_table.close()
+    speed_m_s = None if drive is None else drive.max_speed_m_s
+    most_rows = MAX_ROWS if "bank" in root.raw else max(1, len(rows))
+    moves = read_moves(kind, root, max_speed_m_s=speed_m_s, rows=most_rows)
     for table in (root, plant_table, drive_table, controller_table):
         table.close()
     if name is None or plant is None or drive is None or controller is None:
         return None
-    return Machine(name, source, plant, drive, controller, rows, bank)
+    return Machine(name, source, plant, drive, controller, rows, bank, moves)
 
 
 def _plant_kind(root: Table) -> PlantKind:

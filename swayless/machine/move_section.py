@@ -23,6 +23,10 @@ MAX_PLACES = 16
 """Ropes or frequencies of one move."""
 
 PLACE_KEYS: Mapping[PlantKind, str] = {"crane": "rope_length", "arm": "frequency"}
+_OTHERS_KEYS: Mapping[PlantKind, tuple[str, ...]] = {
+    "crane": ("frequency",),
+    "arm": ("rope_length", "hoist", "wind"),
+}
 
 
 @dataclass(frozen=True)
@@ -141,11 +145,21 @@ def read_move(kind: PlantKind, table: Table, *, max_speed_m_s: float | None, row
         hoist=_hoist(table) if kind == "crane" else None,
         wind=_wind(table) if kind == "crane" else None,
     )
+    _refuse_others(kind, table)
     _refuse_both(table, "distance", "duration")
     _refuse_both(table, place_key, "hoist")
     if max_speed_m_s is not None and move.speed_m_s is not None and move.speed_m_s > max_speed_m_s:
         table.place("speed").wrong(table.raw["speed"], f"is above max_speed, {max_speed_m_s:g} m/s")
     return None if len(table.report.problems) > found_before else move
+
+
+def _refuse_others(kind: PlantKind, table: Table) -> None:
+    """Report keys that only moves of the other kind of machine have."""
+    other = "an arm" if kind == "crane" else "a crane"
+    for key in _OTHERS_KEYS[kind]:
+        table.asked.append(key)
+        if key in table.raw:
+            table.place(key).wrong(table.raw[key], f"only a move of {other} has this")
 
 
 def _refuse_both(table: Table, one: str, other: str) -> None:

@@ -6,7 +6,14 @@ from pathlib import Path
 import pytest
 
 from swayless.design import FAMILIES
-from swayless.machine import Machine, bank_section, design_document, load_machine, machine_file
+from swayless.machine import (
+    Machine,
+    bank_section,
+    design_document,
+    load_machine,
+    machine_file,
+    move_section,
+)
 from swayless.machine.bank_section import OptionedTable
 from swayless.machine.problems import Table
 from swayless.machine.record import Record, members
@@ -39,15 +46,15 @@ def _keys_asked_for(path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, se
 
     class Watched(Table):
         def close(self) -> None:
-            asked.setdefault(re.sub(r"\[\[row\]\].*", "[[row]]", self.prefix).strip(), set()).update(
-                self.asked
-            )
+            section = re.sub(r"(\[\[\w+\]\]).*", r"\1", self.prefix).strip()
+            asked.setdefault(section, set()).update(self.asked)
             super().close()
 
     class WatchedOptions(OptionedTable, Watched):
         pass
 
-    monkeypatch.setattr(machine_file, "Table", Watched)
+    for module in (machine_file, move_section):
+        monkeypatch.setattr(module, "Table", Watched)
     monkeypatch.setattr(bank_section, "OptionedTable", WatchedOptions)
     assert isinstance(load_machine(path), Machine)
     return asked
@@ -65,12 +72,13 @@ def test_every_key_of_the_machine_file_is_documented_in_its_section(
     pages = re.split(r"\n## ", (DOCS / "machine-file.md").read_text(encoding="utf-8"))
     section_pages = {"": "At the top", "[crane]": "`[crane]`", "[drive]": "`[drive]`"}
     section_pages |= {"[controller]": "`[controller]`", "[[row]]": "`[[row]]`", "[bank]": "`[bank]`"}
+    section_pages |= {"[[move]]": "`[[move]]`"}
     assert asked.keys() == section_pages.keys()
     for section, keys in asked.items():
         page = next(page for page in pages if page.startswith(section_pages[section]))
         documented = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\|([^|]*)\|", page, re.MULTILINE))))
         sections_of_their_own = (
-            {"crane", "arm", "drive", "controller", "row", "bank"} if not section else set()
+            {"crane", "arm", "drive", "controller", "row", "bank", "move"} if not section else set()
         )
         assert keys - sections_of_their_own == documented
 

@@ -54,10 +54,10 @@ def test_arms_have_frequencies_and_neither_ropes_nor_hoists_nor_wind() -> None:
     move, problems = read({"frequency": [4, "5 Hz"], "duration": 1}, kind="arm")
     assert (move, problems) == (MoveSection(duration_s=1.0, places=(4.0, 5.0)), [])
     found = read({"rope_length": 3, "hoist": {}, "wind": {}}, kind="arm")[1]
-    assert [problem.split(":")[1] for problem in found] == [
-        " [[move]] 1 rope_length",
-        " [[move]] 1 hoist",
-        " [[move]] 1 wind",
+    assert found == [
+        "crane.toml: [[move]] 1 rope_length = 3: only a move of a crane has this",
+        "crane.toml: [[move]] 1 hoist = {...}: only a move of a crane has this",
+        "crane.toml: [[move]] 1 wind = {...}: only a move of a crane has this",
     ]
 
 
@@ -84,6 +84,7 @@ HOIST = {"from": 9, "to": 4, "rate": 0.3}
         ({"hoist": HOIST | {"stop": 3}}, "hoist stop: unknown key; nearest: "),
         ({"wind": {"start": 3}}, "wind push: missing"),
         ({"wind": {"push": "12 m/s"}}, 'wind push = "12 m/s": is not an acceleration: allowed units are '),
+        ({"frequency": 0.2}, "frequency = 0.2: only a move of an arm has this"),
         ({"sped": 0.5}, "sped: unknown key; nearest: speed; known: "),
     ],
 )
