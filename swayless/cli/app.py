@@ -19,6 +19,7 @@ from swayless.cli.help_text import help_text
 from swayless.cli.init import init
 from swayless.cli.options import OptionError
 from swayless.cli.plot import plot
+from swayless.cli.simulate import simulate
 from swayless.cli.verify import verify
 from swayless.errors import FileError, SwaylessError, ToolMissingError, VerificationError
 
@@ -33,7 +34,7 @@ class Menu(TyperGroup):
         return sorted(super().list_commands(ctx), key=_ORDER.index)
 
 
-_ORDER = ("init", "design", "plot", "generate", "verify", "build")
+_ORDER = ("init", "design", "plot", "simulate", "generate", "verify", "build")
 
 app = typer.Typer(
     name="swayless",
@@ -65,7 +66,7 @@ def _swayless(
 
 
 app.callback(invoke_without_command=True, help=help_text(_swayless))(_swayless)
-for _command in (init, generate, verify, build):
+for _command in (init, simulate, generate, verify, build):
     app.command(help=help_text(_command))(_command)
 app.command(help=help_text(plot), short_help="Draw sensitivity, a response, a bank, or a trade-off.")(plot)
 app.add_typer(design_app, name="design")

@@ -1,0 +1,221 @@
+"""What `swayless simulate` gives: tables, a document for machines, records, and what a figure shows.
+
+Not for: simulating.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swayless.cli.console import per_cent, print_line, print_table
+from swayless.plant import pendulum_frequency_hz
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from swayless.cli.simulated_case import Case, Simulation, Site
+    from swayless.machine import DesignFile
+    from swayless.plant.simulation.trajectory import FloatArray
+
+_MM = 1000.0
+_DIGITS = 9
+
+
+def print_simulation(design: DesignFile, simulation: Simulation, within_m: float) -> None:
+    """Print one table of a move: rope by rope, the block's rows, unshaped, and plain ramps.
+
+    Parameters
+    ----------
+    design : DesignFile
+        Whose block moved.
+    simulation : Simulation
+        The move.
+    within_m : float
+        How near to its end the load rests.
+    """
+    place = "frequency [Hz]" if _is_arm(design) else "rope [m]"
+    angle = () if _is_arm(design) else ("[deg]",)
+    heads = (
+        place,
+        "moved by",
+        "left [mm]",
+        *angle,
+        "[%]",
+        "peak [mm]",
+        "travel [m]",
+        "stands [s]",
+        "rests [s]",
+    )
+    rows = [_row(design, case, within_m) for case in simulation.cases]
+    print_table(f"{design.name}: {move_text(simulation)}", heads, rows)
+
+
+def print_note(design: DesignFile, within_m: float) -> None:
+    """Say what the heads of the tables mean."""
+    unshaped = "v / w" if _is_arm(design) else "v sqrt(L / g)"
+    print_line(
+        f"left: sway once reference and hoist stand; %: of {unshaped}, the sway of an unshaped step; stands:"
+        " from the press until the reference is 0; rests: until the load stays within"
+        f" {_MM * within_m:g} mm of its end"
+    )
+
+
+def _row(design: DesignFile, case: Case, within_m: float) -> list[str]:
+    angle_rad, rests_s = residual_rad(design, case), case.rests_s(within_m)
+    return [
+        place_text(design, case.site),
+        case.contender.name,
+        f"{_MM * case.residual_m:.1f}",
+        *([] if angle_rad is None else [f"{math.degrees(angle_rad):.3f}"]),
+        f"{100.0 * case.residual_ratio:.2f}",
+        f"{_MM * case.peak_sway_m:.0f}",
+        f"{case.travel_m:.3f}",
+        f"{case.stands_s:.2f}",
+        "-" if rests_s is None else f"{rests_s:.2f}",
+    ]
+
+
+def move_text(simulation: Simulation) -> str:
+    """Say what was asked for: how long, how fast, with which hoist and wind."""
+    move = simulation.move
+    way = f"{simulation.held_s:g} s" if move.distance_m is None else f"{move.distance_m:g} m"
+    text = f"{way} at {simulation.speed_m_s:.4g} m/s"
+    if move.start_s:
+        text += f" from {move.start_s:g} s"
+    if move.hoist is not None:
+        hoist = move.hoist
+        text += (
+            f", hoist {hoist.from_m:g} to {hoist.to_m:g} m at {hoist.rate_m_s:g} m/s from {hoist.start_s:g} s"
+        )
+    if move.wind is not None:
+        text += f", wind {move.wind.push_m_s2:g} m/s2 from {move.wind.start_s:g} s"
+        text += "" if move.wind.duration_s is None else f" for {move.wind.duration_s:g} s"
+    return text if move.name is None else f"{move.name}: {text}"
+
+
+def place_text(design: DesignFile, site: Site) -> str:
+    """Write a rope, or the frequency of an arm."""
+    if site.hoist is not None:
+        return f"{site.hoist.from_m:.4g} to {site.hoist.to_m:.4g}"
+    return f"{pendulum_frequency_hz(site.length_m) if _is_arm(design) else site.length_m:.4g}"
+
+
+def residual_rad(design: DesignFile, case: Case) -> float | None:
+    """Angle from the suspension to the load where its sway turns; None for an arm."""
+    if _is_arm(design):
+        return None
+    pendulum = design.plant.double_pendulum
+    below_m = float(case.left.rope_length_m[-1]) + (0.0 if pendulum is None else pendulum.sling_length_m)
+    return math.asin(case.residual_m / below_m)
+
+
+def _is_arm(design: DesignFile) -> bool:
+    return design.plant.kind not in {"crane", "double_pendulum"}
+
+
+def simulation_document(design: DesignFile, simulation: Simulation, within_m: float) -> dict[str, Any]:
+    """Give a move and all that came of it, for machines.
+
+    Parameters
+    ----------
+    design, simulation, within_m
+        As for `print_simulation`.
+    """
+    return {
+        "move": move_text(simulation),
+        "speed_m_s": simulation.speed_m_s,
+        "pressed_s": simulation.pressed_s,
+        "held_s": simulation.held_s,
+        "cases": [_case_document(design, case, within_m) for case in simulation.cases],
+    }
+
+
+def _case_document(design: DesignFile, case: Case, within_m: float) -> dict[str, Any]:
+    site, numbers = (
+        case.site,
+        {
+            "residual_m": case.residual_m,
+            "residual_rad": residual_rad(design, case),
+            "residual_ratio": case.residual_ratio,
+            "peak_sway_m": case.peak_sway_m,
+            "travel_m": case.travel_m,
+            "stands_s": case.stands_s,
+            "rests_s": case.rests_s(within_m),
+        },
+    )
+    rope = [site.length_m, site.length_m] if site.hoist is None else [site.hoist.from_m, site.hoist.to_m]
+    return {
+        "moved_by": case.contender.name,
+        "knob": case.contender.knob,
+        "rope_length_m": None if _is_arm(design) else rope,
+        "frequency_hz": round(pendulum_frequency_hz(site.length_m), _DIGITS) if _is_arm(design) else None,
+        **{key: None if value is None else round(value, _DIGITS) for key, value in numbers.items()},
+    }
+
+
+def record_text(cases: list[Case]) -> str:
+    """Give a record of one rope as CSV: time, rope, and reference, trolley and sway of every case.
+
+    Parameters
+    ----------
+    cases : list of Case
+        On one rope.
+    """
+    heads, columns = ["time_s", "rope_length_m"], [cases[0].run.time_s, cases[0].run.rope_length_m]
+    for case in cases:
+        name = case.contender.name.replace(",", "")
+        heads += [f"{name}: {what}" for what in ("reference_m_s", "trolley_m", "sway_m")]
+        columns += [reference_of(case), case.run.trolley_m, case.run.sway_m]
+    stream = io.StringIO()
+    np.savetxt(stream, np.column_stack(columns), "%.9g", ",", header=",".join(heads), comments="")
+    return stream.getvalue()
+
+
+def reference_of(case: Case) -> FloatArray:
+    """Give the reference as each tick begins, and 0 once it has ended."""
+    reference = np.zeros(case.run.time_s.size)
+    reference[: case.contender.reference_m_s.size] = case.contender.reference_m_s
+    return reference
+
+
+def figures(design: DesignFile, simulation: Simulation) -> Iterator[Figure]:
+    """Draw each rope of a move: the block's rows and, in grey, unshaped."""
+    from swayless.report.simulation import SimulatedRun, simulation_figure
+
+    for site, cases in simulation.sites():
+        time_s = cases[0].run.time_s
+        held = (time_s >= simulation.pressed_s) & (time_s < simulation.pressed_s + simulation.held_s)
+        unit = "Hz" if _is_arm(design) else "m of rope"
+        where = "" if site.hoist is not None else f", {place_text(design, site)} {unit}"
+        yield simulation_figure(
+            f"{design.name}: {move_text(simulation)}{where}",
+            time_s,
+            np.where(held, simulation.speed_m_s, 0.0),
+            [
+                SimulatedRun(
+                    case.contender.name,
+                    reference_of(case),
+                    case.run.sway_m,
+                    case.residual_m,
+                    shaped=case.contender.knob > 0,
+                )
+                for case in cases
+                if case.contender.knob is not None
+            ],
+            rope_length_m=None if site.hoist is None else cases[0].run.rope_length_m,
+            tolerance=_tolerance(design, cases),
+        )
+
+
+def _tolerance(design: DesignFile, cases: list[Case]) -> tuple[str, float] | None:
+    """Give what the rows promise of an unshaped step, at the most, and how much sway that is."""
+    worst = max(cases, key=lambda case: case.residual_m)
+    if worst.residual_ratio == 0.0:
+        return None
+    tolerance = max(shaper.guarantee.tolerance for shaper in design.shapers)
+    return f"{per_cent(tolerance)} of an unshaped step", tolerance * worst.residual_m / worst.residual_ratio
