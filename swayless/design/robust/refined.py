@@ -99,13 +99,16 @@ def refined(
     DesignError
         If the central path is lost.
     """
-    exchange = _Exchange.start(lines, duration, rule)
+    exchange, best = _Exchange.start(lines, duration, rule), -math.inf
     for _ in range(_ROUNDS):
         level, found = exchange.solved(gap=_CENTRED * gap, resolved=resolved)
         known = found.bound > decided or found.worst <= decided
         if known or found.bound >= found.worst - gap * max(found.worst, resolved):
             break
-        exchange = exchange.thinned(found, _IDLE * gap).grown(level, found)
+        # Where dual values are not unique, idle times may be what keeps them up: dropped each time, they
+        # would come back for ever.
+        kept = exchange.thinned(found, _IDLE * gap) if found.bound > best else exchange
+        exchange, best = kept.grown(level, found), max(best, found.bound)
     return found
 
 
