@@ -133,6 +133,11 @@ class CModel:
         return repr(self.settings.tick_s)
 
     @property
+    def last_selector(self) -> str:
+        """Largest selector: the last row, or 1 where the rope chooses the row."""
+        return "1u" if self.features.has_rope_rows else f"(uint8_t){self.macro}_SHAPER_ROWS"
+
+    @property
     def row_count(self) -> int:
         """Rows besides row 0."""
         return len(self.settings.bank.rows)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from swayless.codegen.c_types import CConstant, CField, CTypes
+from swayless.codegen.c_types import CConstant, CField, CTable, CTypes, c_table
 from swayless.controller.rope import MOST_HELD_TICKS, RopeSettings
+from swayless.controller.taps import RopeRows
 
 FROZEN_SCALE = 1_000_000
 """In int32 the way of a frozen rope is in mm and microseconds."""
@@ -35,6 +36,31 @@ def rope_constants(rope: RopeSettings, types: CTypes) -> list[CConstant]:
         "uint32_t", "MOST_HELD_TICKS", f"{MOST_HELD_TICKS}u", "by then the hoist may be anywhere"
     )
     return [*(CConstant(types.real, name, types.literal(value), doc) for name, value, doc in constants), held]
+
+
+def rope_row_tables(rows: RopeRows | None, types: CTypes) -> list[CTable]:
+    """List the rope lengths of the rows, where the rope chooses the row; row 0 has none.
+
+    Parameters
+    ----------
+    rows : RopeRows or None
+        The rope lengths, if the rope chooses.
+    types : CTypes
+        Types of the block.
+    """
+    if rows is None:
+        return []
+    unit = "mm" if types.number.is_integer else "m"
+    tables = (
+        ("ROW_SHORTEST", rows.lower, "below it the next row is wanted"),
+        ("ROW_LONGEST", rows.upper, "above it the row before is wanted"),
+    )
+    return [
+        c_table(
+            types.real, name, [[types.literal(value) for value in (0, *values)]], f"{unit} of rope: {doc}"
+        )
+        for name, values, doc in tables
+    ]
 
 
 def rope_members(rope: RopeSettings, types: CTypes) -> list[CField]:

@@ -41,6 +41,7 @@ class CState:
     def __init__(self, settings: ShaperSettings, types: CTypes, features: Features) -> None:
         self._types = types
         self._settings, self._clock = settings, clock_names(settings)
+        self._has_rope_rows = features.has_rope_rows
         self._last = ring_length(settings) - 1
         self.inputs = [self._member(pin) for pin in input_pins(settings)]
         self.outputs = [self._member(pin) for pin in output_pins(settings)]
@@ -89,6 +90,7 @@ class CState:
             CField("uint8_t", "row", "row in use", "", "0u"),
             CField("uint8_t", "selected_row", "last valid selector", "", "0u"),
             CField("uint8_t", "wanted_row", "row that takes over when settled", "", "0u"),
+            *([CField("uint8_t", "rope_row", "row of the rope", "", "1u")] if self._has_rope_rows else []),
         ]
 
     def _ring(self) -> list[CField]:

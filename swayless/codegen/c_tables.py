@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swayless.codegen.c_phase_tables import phase_constants, phase_tables
-from swayless.codegen.c_rope import rope_constants
+from swayless.codegen.c_rope import rope_constants, rope_row_tables
 from swayless.codegen.c_types import CConstant, CField, CTable, CTypes, c_table
 from swayless.codegen.clock_names import clock_names
 from swayless.codegen.features import Features
@@ -163,6 +163,7 @@ class CTables:
             tables.append(
                 c_table("bool", "WAITS", waits, "rows with negative amplitudes: commands wait for rest")
             )
+        tables += rope_row_tables(self._settings.bank.by_rope, self._types)
         return tables + (
             phase_tables(self._settings, self._types) if self._settings.clock is not None else []
         )

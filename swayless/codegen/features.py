@@ -21,6 +21,8 @@ class Features:
         Whether the rope is measured.
     has_phase_clock : bool
         Whether delays are phases of the pendulum.
+    has_rope_rows : bool
+        Whether the rope chooses the row.
     """
 
     has_minimum: bool
@@ -29,6 +31,7 @@ class Features:
     has_waiting_rows: bool
     has_rope: bool
     has_phase_clock: bool
+    has_rope_rows: bool
 
     @property
     def checked_doc(self) -> str:
@@ -61,4 +64,5 @@ def features_of(settings: ShaperSettings) -> Features:
         has_waiting_rows=any(table.waits for table in settings.row_tables),
         has_rope=settings.rope is not None,
         has_phase_clock=settings.clock is not None,
+        has_rope_rows=settings.bank.by_rope is not None,
     )

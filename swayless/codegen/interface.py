@@ -52,7 +52,8 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
         For units and the number of rows.
     """
     units = settings.limits.units
-    rows = len(settings.bank.rows)
+    by_rope = settings.bank.by_rope is not None
+    choice = "1 the row of the rope" if by_rope else f"1 to {len(settings.bank.rows)} rows"
     pins = (
         Pin("enable", "Enable", "bool", "false: row 0 is wanted, ramped and unshaped", st_initial="TRUE"),
         Pin(
@@ -79,7 +80,7 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
             "selector",
             "Selector",
             "row",
-            f"0 unshaped, 1 to {rows} rows; anything else keeps the last valid one",
+            f"0 unshaped, {choice}; anything else keeps the last valid one",
         ),
     )
     return pins if settings.rope is None else (*pins, *_rope_pins(settings.rope, settings.number))

@@ -71,6 +71,11 @@ class StModel:
         """Rows besides row 0."""
         return len(self.settings.bank.rows)
 
+    @property
+    def last_selector(self) -> int:
+        """Largest selector: the last row, or 1 where the rope chooses the row."""
+        return self.settings.last_selector
+
     @cached_property
     def most_taps(self) -> int:
         """Taps of the longest row."""

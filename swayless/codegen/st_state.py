@@ -32,6 +32,7 @@ STATE = (
     ("real", "RopeNow", "[m] rope length taken last", "LongestRope", "rope"),
     ("word", "HeldTicks", "ticks for which it has been held", "0", "rope"),
     ("real", "UnmovedWay", "[m] way that the hoist says it went without a change of it", ZERO, "rope"),
+    ("row", "RopeRow", "row of the rope", "1", "rope rows"),
     ("bool", "Running", "changes are under way", FALSE, "phase"),
     ("real", "Shaped", "command that the taps have taken in", ZERO, "phase"),
     ("real", "Level", "sum of all releases: the reference", ZERO, "phase"),

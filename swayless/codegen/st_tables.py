@@ -8,6 +8,7 @@ from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, pa
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.ramp import Glider
 from swayless.controller.settings import ShaperSettings
+from swayless.controller.taps import RopeRows
 
 
 class StTables:
@@ -87,6 +88,10 @@ class StTables:
         bounds = [[types.literal(bound) for bound in residual_bounds(self._settings)]]
         waits = [["TRUE" if r.waits else "FALSE" for r in rows]]
         amplitudes = [[types.literal(a) for a in r.amplitudes] for r in rows]
+        ropes = RopeRows((), ()) if self._settings.bank.by_rope is None else self._settings.bank.by_rope
+        shortest, longest = (
+            [[types.literal(value) for value in (0, *ends)]] for ends in (ropes.lower, ropes.upper)
+        )
         tables = (
             ("FirstTaps", "row", [[str(first) for first in firsts]], "First tap of each row.", "all"),
             ("TapCounts", "row", [[str(len(r.amplitudes)) for r in rows]], "Taps of each row.", "all"),
@@ -99,6 +104,8 @@ class StTables:
             ("MomentQuanta", "real", moments, f"[quanta] Sum of amplitude times lag{OF_EACH_ROW}", "phase"),
             ("ResidualBounds", "real", bounds, "Tolerance of each row.", "all"),
             ("Waits", "bool", waits, WAITS, "waiting"),
+            ("RowShortest", "real", shortest, "[m] Rope below which the next row is wanted.", "rope rows"),
+            ("RowLongest", "real", longest, "[m] Rope above which the row before is wanted.", "rope rows"),
         )
         made = [
             st_table(name, types.type_of(kind), values, doc)

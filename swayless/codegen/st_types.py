@@ -105,6 +105,7 @@ def parts_in_use(features: Features) -> frozenset[str]:
         "ticks": not features.has_phase_clock,
         "phase": features.has_phase_clock,
         "rope": features.has_rope,
+        "rope rows": features.has_rope_rows,
         "resolution": features.has_resolution,
         "inching": features.has_inching,
         "waiting": features.has_waiting_rows,

@@ -110,6 +110,7 @@ class CommandShaper:
         self._tables = settings.row_tables
         self._zero = number.scalar(0)
         self._on_grid = settings.clock is not None
+        self._by_rope = settings.bank.by_rope
         self._last = settings.longest_lag
         self._bounds = residual_bounds(settings)
         self._units = OutputUnits(settings)
@@ -125,6 +126,7 @@ class CommandShaper:
         self._held = self._target = self._command = self._reference = self._zero
         self._still = self._last
         self._row = self._selected_row = self._wanted_row = 0
+        self._rope_row = 1
         self._invalid = self._quick = self._emergency = self._inching = False
         self._status = 0
 
@@ -203,11 +205,15 @@ class CommandShaper:
         return self._held
 
     def _want_row(self, inputs: ShaperInput) -> None:
-        if inputs.selector < len(self._tables):
+        if inputs.selector <= self._settings.last_selector:
             self._selected_row = inputs.selector
         else:
             self._status |= _SELECTOR_INVALID
         self._wanted_row = self._selected_row
+        if self._by_rope is not None and self._rope is not None:
+            self._rope_row = self._by_rope.followed(self._rope_row, self._rope.length)
+            if self._selected_row > 0:
+                self._wanted_row = self._rope_row
         if not inputs.enable:
             self._status |= _DISABLED
             self._wanted_row = 0

@@ -133,7 +133,7 @@ def command_limits(
     number : NumberType
         Target type. In int32 everything is rounded towards the safe side: down.
     on_grid : bool
-        Bring the largest command down to the grid of the ramp steps, on which the phase clock computes.
+        Bring the largest commands down to the grid of the ramp steps, on which the phase clock computes.
 
     Raises
     ------
@@ -150,6 +150,7 @@ def command_limits(
     """
     max_command = _command("max_speed", speeds.max_speed_m_s, speeds, number)
     grid = RampGrid(max_command, number)
+    inching = _command("inching_speed", speeds.inching_speed_m_s, speeds, number)
     if on_grid:
         max_command = grid.floor(max_command)
     steps = [
@@ -167,7 +168,7 @@ def command_limits(
         quick_stop_step=steps[2],
         ramp_anchor=grid.anchor,
         minimum_command=_command("minimum_speed", speeds.minimum_speed_m_s, speeds, number),
-        inching_command=_command("inching_speed", speeds.inching_speed_m_s, speeds, number),
+        inching_command=grid.floor(inching) if on_grid else inching,
         command_resolution=_command("command_resolution", speeds.command_resolution_m_s, speeds, number),
         units=speeds.units,
         units_per_m_s=speeds.units_per_m_s,

@@ -73,8 +73,8 @@ class ShaperSettings:
     rope: RopeSettings | None = None
 
     def __post_init__(self) -> None:
-        if self.clock is not None and self.rope is None:
-            raise ControllerError("law = 'phase' needs a measured rope")
+        if self.rope is None and (self.clock is not None or self.bank.by_rope is not None):
+            raise ControllerError("the phase clock, and rows chosen by the rope, need a measured rope")
         if self.number.is_integer and self.clock is None:
             peak = max(sum(abs(a) for a in table.amplitudes) for table in self.row_tables)
             if peak * self.limits.max_command >= (1 << 62) - (
@@ -104,6 +104,11 @@ class ShaperSettings:
         """The phase clock; None where delays are in ticks."""
         taps = self.bank.rows[0].taps
         return taps.clock if isinstance(taps, PhaseTaps) else None
+
+    @property
+    def last_selector(self) -> int:
+        """Largest selector: the last row, or 1 where the rope chooses the row."""
+        return len(self.bank.rows) if self.bank.by_rope is None else 1
 
     @cached_property
     def longest_lag(self) -> int:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -198,6 +200,50 @@ class Row:
 
 
 @dataclass(frozen=True)
+class RopeRows:
+    """Which rope lengths each row works on, where the rope chooses the row. Neighbours overlap: hysteresis.
+
+    Parameters
+    ----------
+    lower, upper : tuple of float or int
+        Ends of each row's rope lengths, in the number type, both falling from row to row.
+
+    Raises
+    ------
+    ControllerError
+        If rows are out of order, or neighbours do not overlap.
+    """
+
+    lower: tuple[Any, ...]
+    upper: tuple[Any, ...]
+
+    def __post_init__(self) -> None:
+        for before, after in pairwise(range(len(self.lower))):
+            falls = self.lower[after] < self.lower[before] and self.upper[after] < self.upper[before]
+            if not falls or not self.lower[before] < self.upper[after]:
+                raise ControllerError(
+                    f"rows {before + 1} and {after + 1}: "
+                    f"{self.lower[before]!r} to {self.upper[before]!r} and "
+                    f"{self.lower[after]!r} to {self.upper[after]!r} of rope must fall and overlap"
+                )
+
+    def followed(self, row: int, length: Any) -> int:
+        """Row for a rope length, from 1, when `row` was the last: it stays as long as the length is its own.
+
+        Examples
+        --------
+        >>> rows = RopeRows((6.0, 3.0), (9.0, 6.5))
+        >>> [rows.followed(1, 6.2), rows.followed(1, 5.9), rows.followed(2, 6.2), rows.followed(2, 6.6)]
+        [1, 2, 2, 1]
+        """
+        while row < len(self.lower) and length < self.lower[row - 1]:
+            row += 1
+        while row > 1 and length > self.upper[row - 1]:
+            row -= 1
+        return row
+
+
+@dataclass(frozen=True)
 class Bank:
     """The rows of a machine; position 0, unshaped, is always there and not listed.
 
@@ -205,8 +251,8 @@ class Bank:
     ----------
     rows : tuple of Row
         Rows 1 to n; at least one, at most 254, all on one tick and in one number type.
-    selection : str
-        How a row is chosen: ``"knob"``.
+    by_rope : RopeRows or None
+        The rope lengths of the rows, where the measured rope chooses; None where the knob does.
 
     Raises
     ------
@@ -215,7 +261,7 @@ class Bank:
     """
 
     rows: tuple[Row, ...]
-    selection: str = "knob"
+    by_rope: RopeRows | None = None
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.rows) <= 254:
@@ -226,8 +272,8 @@ class Bank:
             raise ControllerError("a bank needs a row with a delay: a single tap shapes nothing")
         if len({(row.taps.tick_s, row.taps.number.name) for row in self.rows}) != 1:
             raise ControllerError("all rows of a bank must have one tick and one number type")
-        if self.selection != "knob":
-            raise ControllerError(f"selection = {self.selection!r}: this version knows 'knob' only")
+        if self.by_rope is not None and len(self.by_rope.lower) != len(self.rows):
+            raise ControllerError(f"{len(self.by_rope.lower)} rope intervals for {len(self.rows)} rows")
 
     @property
     def tick_s(self) -> float:

@@ -14,7 +14,7 @@ from swayless.machine.design_members import LABEL, NOT_NEGATIVE, POSITIVE, TOLER
 from swayless.machine.record import Member, Record, optional, several
 
 MAX_SHAPERS = 8
-SELECTIONS = ("knob",)
+SELECTIONS = ("knob", "rope_length")
 
 _BETWEEN = {"at_least": 0, "at_most": MAX_SHAPERS - 1}
 _PLACES: Member = several(POSITIVE, **_BETWEEN)

@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from swayless.machine.checks import integer, quantity
+from swayless.machine.bank_record import SELECTIONS
+from swayless.machine.checks import choice, integer, quantity
 from swayless.machine.plant_section import LENGTH, PlantSection
 from swayless.machine.problems import Place, Table
 from swayless.machine.quantity import UNITS, Dimension, unit_of
@@ -45,6 +46,8 @@ class BankSection:
         Switching lengths are whole multiples of it.
     unit : str
         Unit of the range in the file, in which the knob is labelled.
+    selection : {"knob", "rope_length"}
+        What chooses the row: the operator, or the measured rope.
     """
 
     tolerance: float | None
@@ -55,6 +58,7 @@ class BankSection:
     hysteresis: float
     label_step_m: float | None
     unit: str
+    selection: str = "knob"
 
 
 @dataclass(frozen=True)
@@ -133,11 +137,28 @@ def read_bank(
         table.place("label_step").problem(
             "the machine is given by frequencies, which are labelled as they are"
         )
+    selection = table.take("selection", choice("selection", SELECTIONS), SELECTIONS[0])
+    if selection == "rope_length":
+        _check_measured(plant, table, hysteresis)
     _check_range(plant, plant_table)
-    if len(table.report.problems) > found_before or rule is None or hysteresis is None:
+    found = len(table.report.problems) > found_before
+    if found or rule is None or hysteresis is None or selection is None:
         return None
     unit = unit_of(plant_table.raw["frequency" if plant.rope_length_m is None else "rope_length"], dimension)
-    return BankSection(tolerance, rows, duration_s, longest_duration_s, rule, hysteresis, label_step_m, unit)
+    return BankSection(
+        tolerance, rows, duration_s, longest_duration_s, rule, hysteresis, label_step_m, unit, selection
+    )
+
+
+def _check_measured(plant: PlantSection, table: Table, hysteresis: float | None) -> None:
+    """Report what a bank lacks whose rows the measured rope chooses."""
+    why = 'missing: selection = "rope_length" needs'
+    if plant.rope_length_m is None:
+        table.place("selection").problem('"rope_length" needs a [crane] with its shortest and longest rope')
+    elif plant.hoist_speed_m_s is None:
+        table.place("selection").problem(f"{why} hoist_speed in [crane]")
+    if hysteresis == 0.0:
+        table.place("hysteresis").problem(f"{why} it, so that rows do not change to and fro")
 
 
 def unit_size(bank: BankSection) -> float:

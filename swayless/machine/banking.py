@@ -240,7 +240,7 @@ def _record(
     overlaps = tuple(switching.overlap(lower, upper) for lower, upper in pairwise(bands))
     on_rope = switching.on_rope
     return BankRecord(
-        selection="knob",
+        selection=bank.selection,
         tolerance=bank.tolerance or max(design.promise.tolerance for design in designs),
         hysteresis_m=bank.hysteresis if on_rope else None,
         hysteresis_hz=None if on_rope else bank.hysteresis,

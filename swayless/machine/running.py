@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -17,6 +18,8 @@ from swayless.controller import (
     quantised_taps,
 )
 from swayless.controller.phase_taps import phase_taps
+from swayless.controller.rope import MM_PER_M, RopeSettings, rope_settings
+from swayless.controller.taps import RopeRows
 from swayless.design import GridShaper, Guarantee, Shaper
 from swayless.errors import ControllerError
 from swayless.machine.design_document import (
@@ -29,6 +32,9 @@ from swayless.machine.design_document import (
 )
 from swayless.machine.phase_row import clock_of, taps_on_a_still_rope
 from swayless.plant import Band, Mode
+
+_SAME_LENGTH = 1e-9
+"""Relative difference of rope lengths that rounding to 12 digits of frequencies explains."""
 
 
 def shaper_settings(design: DesignFile, *, number: str | None = None) -> ShaperSettings:
@@ -62,7 +68,47 @@ def shaper_settings(design: DesignFile, *, number: str | None = None) -> ShaperS
             raise ControllerError(f'row "{shaper.name}": {error}') from error
         rows.append(Row(shaper.name, shaper.family, taps))
     limits = command_limits(_speed_limits(design.drive, kind.is_integer), tick_s=design.tick_s, number=kind)
-    return ShaperSettings(Bank(tuple(rows)), limits)
+    if design.bank is None or design.bank.selection == "knob":
+        return ShaperSettings(Bank(tuple(rows)), limits)
+    return ShaperSettings(Bank(tuple(rows), _rope_rows(design, kind)), limits, _rope(design, kind))
+
+
+def _rope(design: DesignFile, kind: NumberType) -> RopeSettings:
+    """Make the constants of a measured rope."""
+    plant = design.plant
+    if plant.rope_length_m is None or plant.hoist_speed_m_s is None or design.tick_s is None:
+        raise ControllerError("a measured rope needs plant.rope_length_m, plant.hoist_speed_m_s and tick_s")
+    return rope_settings(plant.rope_length_m, plant.hoist_speed_m_s, tick_s=design.tick_s, number=kind)
+
+
+def _rope_rows(design: DesignFile, kind: NumberType) -> RopeRows:
+    """Give each row the ropes between its switching lengths, and half the hysteresis beyond.
+
+    Raises
+    ------
+    ControllerError
+        If a row does not hold all of them.
+    """
+    bank, ropes_m = design.bank, design.plant.rope_length_m
+    if bank is None or bank.hysteresis_m is None or bank.switching_rope_length_m is None or ropes_m is None:
+        raise ControllerError("rows chosen by the rope need switching lengths and a hysteresis in m")
+    half_m = 0.5 * bank.hysteresis_m
+    lower_m = [*(place - half_m for place in bank.switching_rope_length_m), ropes_m[0]]
+    upper_m = [ropes_m[1], *(place + half_m for place in bank.switching_rope_length_m)]
+    for shaper, low_m, high_m in zip(design.shapers, lower_m, upper_m, strict=True):
+        assert shaper.taps is not None  # noqa: S101 - the file has taps exactly where it has a tick
+        held_m = shaper.taps.guarantee.rope_length_m
+        if low_m < held_m[0] * (1.0 - _SAME_LENGTH) or high_m > held_m[1] * (1.0 + _SAME_LENGTH):
+            raise ControllerError(
+                f'row "{shaper.name}" holds {held_m[0]:.6g} to {held_m[1]:.6g} m and would be chosen from '
+                f"{low_m:.6g} to {high_m:.6g} m"
+            )
+    if kind.is_integer:
+        return RopeRows(
+            tuple(math.ceil(value * MM_PER_M) for value in lower_m),
+            tuple(math.floor(value * MM_PER_M) for value in upper_m),
+        )
+    return RopeRows(tuple(map(kind.scalar, lower_m)), tuple(map(kind.scalar, upper_m)))
 
 
 def most_phase_rad(shapers: Sequence[ShaperRecord]) -> float:

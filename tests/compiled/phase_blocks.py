@@ -6,9 +6,10 @@ import numpy as np
 
 from swayless.controller import Bank, Row, ShaperSettings
 from swayless.controller.phase_taps import phase_taps
+from swayless.controller.taps import RopeRows
 from swayless.design import design_shaper
 from swayless.plant import Mode
-from tests.unit.controller.blocks import ZVD, block, phase_block
+from tests.unit.controller.blocks import EI, UM_ZV, ZVD, block, phase_block
 
 
 def gantry(number):
@@ -68,9 +69,20 @@ def measured_only(number):
     return dataclasses.replace(block(ZVD, number=number), rope=rope)
 
 
+def chosen_by_rope(number):
+    """The tick clock with three rows, of which the measured rope chooses one, with hysteresis."""
+    settings = block(ZVD, EI, UM_ZV, number=number)
+    rope = phase_block(number, tick_s=0.05).rope
+    scale, scalar = (1000, int) if settings.number.is_integer else (1, settings.number.scalar)
+    lower, upper = ([scalar(m * scale) for m in ends] for ends in ((6.5, 4.0, 3.0), (9.0, 7.0, 4.5)))
+    rows = RopeRows(tuple(lower), tuple(upper))
+    return ShaperSettings(Bank(settings.bank.rows, rows), settings.limits, rope)
+
+
 BLOCKS = {
     "gantry": gantry,
     "everything": everything,
     "unramped": unramped,
     "measured only": measured_only,
+    "chosen by rope": chosen_by_rope,
 }
