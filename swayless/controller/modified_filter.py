@@ -47,15 +47,11 @@ class ModifiedFilter(SpacedFilter):
         return total
 
     def _followed(self, tap: int) -> int:
-        """Delay of a tap for this tick: the nearest that both samples want, if they want the same way."""
+        """Delay of a tap for this tick: the median of what it was, and what the two samples want."""
         delay = self._delays[tap]
         wanted = tap * self._spacing_then(delay)
         agreed = tap * self._spacing_then(wanted)
-        if wanted > delay and agreed > delay:
-            return min(wanted, agreed)
-        if wanted < delay and agreed < delay:
-            return max(wanted, agreed)
-        return delay
+        return max(min(wanted, agreed), min(max(wanted, agreed), delay))
 
     def _past(self, delay: int) -> Any:
         """Command of so many ticks ago."""
