@@ -92,7 +92,7 @@ def simulate(
     with progress() as show:
         design, of_file = _design(file, show)
         settings = shaper_settings(design)
-        moves, within_m = _moves(design, of_file, spoken, row, within)
+        moves, within_m = _moves(design, settings.last_selector, of_file, spoken, row, within)
         simulations = []
         for number, asked in enumerate(moves, start=1):
             show(f"simulating move {number}")
@@ -122,6 +122,7 @@ def _design(file: Path, show: Callable[[str], None]) -> tuple[DesignFile, tuple[
 
 def _moves(
     design: DesignFile,
+    positions: int,
     of_file: tuple[MoveSection, ...],
     spoken: dict[str, Any],
     row: list[str] | None,
@@ -135,17 +136,17 @@ def _moves(
     problems: list[str] = []
     within_m = option_table({"within": within}, problems).take("within", LENGTH, None)
     given = any(value not in (None, []) for value in spoken.values())
-    asked = _asked(design, spoken, row, problems)
+    asked = _asked(design, positions, spoken, row, problems)
     moves = [asked] if given else [replace(move, rows=asked.rows or move.rows) for move in of_file]
     for number, knob in ((number, max(move.rows or (0,))) for number, move in enumerate(moves, start=1)):
-        if knob > len(design.shapers):
-            problems.append(f"[[move]] {number} row = {knob}: the bank has rows 1 to {len(design.shapers)}")
+        if knob > positions:
+            problems.append(f"[[move]] {number} row = {knob}: the knob has positions 0 to {positions}")
     refuse(problems)
     return moves or [MoveSection(rows=asked.rows)], within_m or 0.0
 
 
 def _asked(
-    design: DesignFile, spoken: dict[str, Any], row: list[str] | None, problems: list[str]
+    design: DesignFile, positions: int, spoken: dict[str, Any], row: list[str] | None, problems: list[str]
 ) -> MoveSection:
     """Read the move that the options describe, with the checks of the machine file."""
     from swayless.cli.option_table import option_table
@@ -164,8 +165,8 @@ def _asked(
         if spoken[key] is not None
     }
     table = replace(table, raw={**table.raw, **inner})
-    speed_m_s, rows = design.drive.max_speed_m_s, len(design.shapers)
-    return read_move(kind, table, max_speed_m_s=speed_m_s, rows=rows) or MoveSection()
+    speed_m_s = design.drive.max_speed_m_s
+    return read_move(kind, table, max_speed_m_s=speed_m_s, rows=positions) or MoveSection()
 
 
 def _one_or_all(values: list[str] | None) -> str | list[str] | None:

@@ -128,8 +128,8 @@ def _on_site(
     press: Press,
     site: Site,
 ) -> list[Contender]:
-    knobs = move.rows or tuple(range(1, len(design.shapers) + 1))
-    names = ["unshaped", *(f"{knob} {design.shapers[knob - 1].name}" for knob in knobs)]
+    knobs = move.rows or tuple(range(1, settings.last_selector + 1))
+    names = ["unshaped", *(_row_name(design, settings, knob) for knob in knobs)]
     shaped = [
         Contender(name, knob, _to_rest(shaped_reference(settings, knob, press, speed_m_s, _rope(site))))
         for knob, name in zip((0, *knobs), names, strict=True)
@@ -145,6 +145,13 @@ def _on_site(
     ramped = design.drive.acceleration_m_s2 is not None or design.drive.deceleration_m_s2 is not None
     jump = [Contender("jump, no ramp", None, plain_ramp(held, 1, speed_m_s))] if ramped else []
     return [*jump, *shaped, *plain]
+
+
+def _row_name(design: DesignFile, settings: ShaperSettings, knob: int) -> str:
+    """Name a position of the knob; where the rope chooses the row, the one position has them all."""
+    if settings.last_selector < len(design.shapers):
+        return f"{knob} row by the rope"
+    return f"{knob} {design.shapers[knob - 1].name}"
 
 
 def _rope(site: Site) -> tuple[Hoist | None, float]:

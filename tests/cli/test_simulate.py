@@ -277,7 +277,19 @@ def test_a_row_of_a_bank_that_turns_out_smaller_is_refused(tmp_path, run):
     path.write_text(example_text("srtc-gantry-bank") + "\n[[move]]\nrow = 8\n")
     done = run("simulate", path)
     assert done.code == 2
-    assert re.fullmatch(r"error: \[\[move\]\] 1 row = 8: the bank has rows 1 to [2-7]\n", done.err)
+    assert re.fullmatch(r"error: \[\[move\]\] 1 row = 8: the knob has positions 0 to [2-7]\n", done.err)
+
+
+def test_where_the_rope_chooses_the_row_one_position_follows_it(tmp_path, simulated):
+    path = tmp_path / "bank.toml"
+    chosen = 'hysteresis = "6 in"\nselection = "rope_length"\n'
+    text = example_text("srtc-gantry-bank").replace("[crane]\n", "[crane]\nhoist_speed = 0.3\n")
+    path.write_text(text.replace('label_step = "1 ft"', f'label_step = "1 ft"\n{chosen}'))
+    found = simulated(path, "--move", "9 s", "--rope-length", "3.5", "--rope-length", "8")["moves"][0]
+    by_rope = [case for case in found["cases"] if case["knob"] == 1]
+    assert [case["moved_by"] for case in by_rope] == ["1 row by the rope"] * 2
+    # Start and stop may each leave the tolerance of the bank; and half a point, for up to 5 degrees.
+    assert all(case["residual_ratio"] < 2 * 0.05 + 0.005 for case in by_rope)
 
 
 def test_a_place_that_is_a_file_is_refused(crane, run):
