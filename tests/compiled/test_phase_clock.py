@@ -1,6 +1,7 @@
 """Generated C of the phase clock equals the reference in every bit of every output. No tolerance anywhere."""
 
 import dataclasses
+import subprocess
 from contextlib import contextmanager
 
 import numpy as np
@@ -118,6 +119,18 @@ def test_stimuli_shape_on_still_and_moving_ropes_and_raise_every_bit_of_the_rope
     assert every & int(ROPE_BITS) == int(ROPE_BITS)
     shaping, moving = ~outputs["settled"], inputs["hoist_speed"] != 0
     assert min(np.sum(shaping & ~moving), np.sum(shaping & moving)) > 10_000
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_the_example_program_arrives_and_comes_to_rest(number, tmp_path):
+    for file in generate(gantry(number), ORIGIN, "c"):
+        (tmp_path / file.path).write_text(file.text)
+    command = [*find_compiler().command, "-std=c99", "-o", tmp_path / "example.exe"]
+    subprocess.run([*command, *sorted(tmp_path.glob("*.c"))], check=True)
+    done = subprocess.run([tmp_path / "example.exe"], check=True, capture_output=True, text=True)
+    lines = [[float(value) for value in line.split()] for line in done.stdout.splitlines()]
+    assert lines[-1][1:] == [0.0, 0.0, 0.0]
+    assert max(line[2] for line in lines) == max(line[1] for line in lines)
 
 
 def test_settings_of_other_ropes_give_other_code():
