@@ -1,10 +1,10 @@
 /*
  * double_pendulum: command shaper, see double_pendulum_shaper.h.
- * Design SHA-256 c7a442f9c4eea91bfdb893f2225302fc4c8d87a8dc25814eb463828de6448d52.
+ * Design SHA-256 2d68b8f32fb8aeeadf58340bfd79ac62b982e693e1f00149d26e9000aa4c7279.
  */
 #include "double_pendulum_shaper.h"
 
-#if (DOUBLE_PENDULUM_SHAPER_DESIGN != 0xc7a442f9u)
+#if (DOUBLE_PENDULUM_SHAPER_DESIGN != 0x2d68b8f3u)
 #error "double_pendulum_shaper.h and double_pendulum_shaper.c belong to different designs"
 #endif
 

@@ -1,10 +1,10 @@
 /*
  * flexible_arm: command shaper, see flexible_arm_shaper.h.
- * Design SHA-256 5e7a727f7877192dda8b344381595f325d74949aa4afccca5ba8ddd8dc3c383b.
+ * Design SHA-256 2881e9e0d002280fa2a9ce46864d431aa46c5ce5453f1a73e4328811ecb2973b.
  */
 #include "flexible_arm_shaper.h"
 
-#if (FLEXIBLE_ARM_SHAPER_DESIGN != 0x5e7a727fu)
+#if (FLEXIBLE_ARM_SHAPER_DESIGN != 0x2881e9e0u)
 #error "flexible_arm_shaper.h and flexible_arm_shaper.c belong to different designs"
 #endif
 

@@ -2,7 +2,7 @@
  * flexible_arm: command shaper. The load does not swing when the drive follows the reference.
  *
  * Made by swayless 0.1.0 from flexible-arm.toml.
- * Design SHA-256 5e7a727f7877192dda8b344381595f325d74949aa4afccca5ba8ddd8dc3c383b.
+ * Design SHA-256 2881e9e0d002280fa2a9ce46864d431aa46c5ce5453f1a73e4328811ecb2973b.
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.02 s, numbers in int32, law fixed (tick clock).
@@ -49,7 +49,7 @@ typedef int32_t flexible_arm_real_t;
 /// Upper bound of sizeof(flexible_arm_shaper_t), in bytes; checked when compiled.
 #define FLEXIBLE_ARM_SHAPER_RAM (168)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
-#define FLEXIBLE_ARM_SHAPER_DESIGN (0x5e7a727fu)
+#define FLEXIBLE_ARM_SHAPER_DESIGN (0x2881e9e0u)
 
 /// Status: enable is false: row 0 (ramped, unshaped) is wanted.
 #define FLEXIBLE_ARM_SHAPER_DISABLED ((uint32_t)1u << 0)

@@ -1,10 +1,10 @@
 /*
  * srtc_gantry_bank: command shaper, see srtc_gantry_bank_shaper.h.
- * Design SHA-256 dbfc46197ca3206f1866f4105779e31e71a620f182c94cfbd6693ea9021e951a.
+ * Design SHA-256 a1fb4bb25aa83870d92ad5a8debdbf85436a73e1770fe7b6b02b026542664ae0.
  */
 #include "srtc_gantry_bank_shaper.h"
 
-#if (SRTC_GANTRY_BANK_SHAPER_DESIGN != 0xdbfc4619u)
+#if (SRTC_GANTRY_BANK_SHAPER_DESIGN != 0xa1fb4bb2u)
 #error "srtc_gantry_bank_shaper.h and srtc_gantry_bank_shaper.c belong to different designs"
 #endif
 
@@ -36,12 +36,12 @@ static const uint32_t srtc_gantry_bank_DELAY_TICKS[33] = {
 /* amplitude of each tap, by row; each row sums to exactly 1 */
 static const srtc_gantry_bank_real_t srtc_gantry_bank_AMPLITUDE[33] = {
     1.0,
-    1.0, -0.123997324234, -0.876002675766, 1.0, -0.876002675766, -0.123997324234,
+    1.0, -0.12399731900900002, -0.876002680991, 1.0, -0.87600268099, -0.12399731901,
     1.0,
-    1.0, -0.46059298289100004, -0.539407017109, 1.0, -0.5394070171079999, -0.4605929828920001,
+    1.0, -0.460592989888, -0.539407010112, 1.0, -0.539407010112, -0.460592989888,
     1.0,
-    1.0, -0.21286128085299993, -0.7871387191470001, 1.0, -0.7871387191449999, -0.2128612808550001,
-    1.0,
+    1.0, -0.21286127367100005, -0.787138726329, 1.0, -0.7871387263279999, -0.21286127367200003,
+    0.9999999999999999,
     1.0, -0.97801608151, -0.02198391849000003, 0.294193005105, 0.705806994895, -1.0,
     0.705806994895, 0.294193005105, -0.02198391848999992, -0.97801608151, 0.9999999999999999
 };
@@ -51,7 +51,7 @@ static const uint32_t srtc_gantry_bank_TAIL_TICKS[5] = {
 };
 /* sum of amplitude times delay of each row: references to come per unit of a steady command */
 static const srtc_gantry_bank_real_t srtc_gantry_bank_MOMENT_TICKS[5] = {
-    0.0, 150.0, 149.999999999999, 149.999999999998, 150.0
+    0.0, 149.999999999999, 150.0, 149.999999999999, 150.0
 };
 /* tolerance of each row */
 static const srtc_gantry_bank_real_t srtc_gantry_bank_RESIDUAL_BOUND[5] = {

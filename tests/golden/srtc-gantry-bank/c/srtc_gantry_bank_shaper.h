@@ -2,7 +2,7 @@
  * srtc_gantry_bank: command shaper. The load does not swing when the drive follows the reference.
  *
  * Made by swayless 0.1.0 from srtc-gantry-bank.toml.
- * Design SHA-256 dbfc46197ca3206f1866f4105779e31e71a620f182c94cfbd6693ea9021e951a.
+ * Design SHA-256 a1fb4bb25aa83870d92ad5a8debdbf85436a73e1770fe7b6b02b026542664ae0.
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.01 s, numbers in double, law fixed (tick clock).
@@ -57,7 +57,7 @@ typedef double srtc_gantry_bank_real_t;
 /// Upper bound of sizeof(srtc_gantry_bank_shaper_t), in bytes; checked when compiled.
 #define SRTC_GANTRY_BANK_SHAPER_RAM (2552)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
-#define SRTC_GANTRY_BANK_SHAPER_DESIGN (0xdbfc4619u)
+#define SRTC_GANTRY_BANK_SHAPER_DESIGN (0xa1fb4bb2u)
 
 /// Status: enable is false: row 0 (ramped, unshaped) is wanted.
 #define SRTC_GANTRY_BANK_SHAPER_DISABLED ((uint32_t)1u << 0)

@@ -1,10 +1,10 @@
 /*
  * srtc_gantry: command shaper, see srtc_gantry_shaper.h.
- * Design SHA-256 842d93933a39f8fb5b13dbc69394c3d7dc40817b388d1bfec08c6c44f1209e2c.
+ * Design SHA-256 3f0dc13818d393aedf5ca802456e8c5137821637a05b38124f00f7ff3754f3b7.
  */
 #include "srtc_gantry_shaper.h"
 
-#if (SRTC_GANTRY_SHAPER_DESIGN != 0x842d9393u)
+#if (SRTC_GANTRY_SHAPER_DESIGN != 0x3f0dc138u)
 #error "srtc_gantry_shaper.h and srtc_gantry_shaper.c belong to different designs"
 #endif
 

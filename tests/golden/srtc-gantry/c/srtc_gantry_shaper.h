@@ -2,7 +2,7 @@
  * srtc_gantry: command shaper. The load does not swing when the drive follows the reference.
  *
  * Made by swayless 0.1.0 from srtc-gantry.toml.
- * Design SHA-256 842d93933a39f8fb5b13dbc69394c3d7dc40817b388d1bfec08c6c44f1209e2c.
+ * Design SHA-256 3f0dc13818d393aedf5ca802456e8c5137821637a05b38124f00f7ff3754f3b7.
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.01 s, numbers in double, law fixed (tick clock).
@@ -53,7 +53,7 @@ typedef double srtc_gantry_real_t;
 /// Upper bound of sizeof(srtc_gantry_shaper_t), in bytes; checked when compiled.
 #define SRTC_GANTRY_SHAPER_RAM (1600)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
-#define SRTC_GANTRY_SHAPER_DESIGN (0x842d9393u)
+#define SRTC_GANTRY_SHAPER_DESIGN (0x3f0dc138u)
 
 /// Status: enable is false: row 0 (ramped, unshaped) is wanted.
 #define SRTC_GANTRY_SHAPER_DISABLED ((uint32_t)1u << 0)

@@ -1,10 +1,10 @@
 /*
  * workshop_crane: command shaper, see workshop_crane_shaper.h.
- * Design SHA-256 64f13f1f59fbddb1a1907504144b000ec702968162de72c0002dbfd7d25df6d2.
+ * Design SHA-256 dec569420ed405b1d65f0d54757086185d2deb32756919dc6d9fd32619de2b60.
  */
 #include "workshop_crane_shaper.h"
 
-#if (WORKSHOP_CRANE_SHAPER_DESIGN != 0x64f13f1fu)
+#if (WORKSHOP_CRANE_SHAPER_DESIGN != 0xdec56942u)
 #error "workshop_crane_shaper.h and workshop_crane_shaper.c belong to different designs"
 #endif
 

@@ -2,7 +2,7 @@
  * workshop_crane: command shaper. The load does not swing when the drive follows the reference.
  *
  * Made by swayless 0.1.0 from workshop-crane.toml.
- * Design SHA-256 64f13f1f59fbddb1a1907504144b000ec702968162de72c0002dbfd7d25df6d2.
+ * Design SHA-256 dec569420ed405b1d65f0d54757086185d2deb32756919dc6d9fd32619de2b60.
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.01 s, numbers in float, law fixed (tick clock).
@@ -53,7 +53,7 @@ typedef float workshop_crane_real_t;
 /// Upper bound of sizeof(workshop_crane_shaper_t), in bytes; checked when compiled.
 #define WORKSHOP_CRANE_SHAPER_RAM (3388)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
-#define WORKSHOP_CRANE_SHAPER_DESIGN (0x64f13f1fu)
+#define WORKSHOP_CRANE_SHAPER_DESIGN (0xdec56942u)
 
 /// Status: enable is false: row 0 (ramped, unshaped) is wanted.
 #define WORKSHOP_CRANE_SHAPER_DISABLED ((uint32_t)1u << 0)
