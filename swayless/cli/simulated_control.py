@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from swayless.machine.move_section import Hoist, MoveSection
     from swayless.plant.simulation.trajectory import FloatArray
 
-MOST_TICKS = 1_000_000
+MOST_TICKS = 200_000
 """Longest move that is simulated."""
 
 
@@ -65,10 +66,10 @@ def press_of(
         held_s = move.duration_s
     elif move.distance_m is not None:
         held_s = _time_for(move.distance_m, speed_m_s, drive)
-    if move.start_s + held_s > MOST_TICKS * tick_s:
+    end_s = max(move.start_s + held_s, hoist_end_s(move.hoist))
+    if end_s > MOST_TICKS * tick_s:
         raise ControllerError(
-            f"a move of {move.start_s + held_s:g} s in ticks of {tick_s:g} s: at most {MOST_TICKS} ticks are"
-            " simulated"
+            f"a move of {end_s:g} s in ticks of {tick_s:g} s: at most {MOST_TICKS} ticks are simulated"
         )
     first = round(move.start_s / tick_s)
     return Press(first, first + max(1, round(held_s / tick_s)))
@@ -135,7 +136,7 @@ def shaped_reference(
     held = released._replace(command=_scalar(settings, speed_m_s * per_m_s))
     readings = _readings(settings, press, *rope)
     references: list[float] = []
-    for tick in range(MOST_TICKS):
+    for tick in count():
         inputs = held if press.first <= tick < press.last else released
         if readings:
             length, speed = readings[min(tick, len(readings) - 1)]

@@ -13,7 +13,6 @@ import numpy as np
 
 from swayless.cli.simulated_case import Case, Contender, Simulation, Site
 from swayless.cli.simulated_control import (
-    MOST_TICKS,
     Press,
     hoist_end_s,
     plain_ramp,
@@ -52,11 +51,16 @@ def simulate_move(design: DesignFile, settings: ShaperSettings, move: MoveSectio
     Raises
     ------
     ControllerError
-        If the move is too long.
+        If the move is too long, or at a speed that a contactor drive does not have.
     PlantError
         If the load would swing to the horizontal.
     """
     tick_s, speed_m_s = settings.tick_s, move.speed_m_s or design.drive.max_speed_m_s
+    if design.drive.contactor and speed_m_s < design.drive.max_speed_m_s:
+        raise ControllerError(
+            f"a move at {speed_m_s:g} m/s: a contactor drive gives 0 or full speed,"
+            f" {design.drive.max_speed_m_s:g} m/s"
+        )
     sites = _sites(design, move)
     slowest_s = 1.0 / pendulum_frequency_hz(max(_lengths(site)[-1] for site in sites))
     ramp_s = speed_m_s / (design.drive.acceleration_m_s2 or math.inf)
@@ -134,12 +138,13 @@ def _on_site(
         Contender(name, knob, _to_rest(shaped_reference(settings, knob, press, speed_m_s, _rope(site))))
         for knob, name in zip((0, *knobs), names, strict=True)
     ]
+    if design.drive.contactor:
+        return shaped
     way_ticks = round(float(shaped[0].reference_m_s.sum()) / speed_m_s)
-    held = Press(press.first, press.first + max(1, way_ticks))
+    held = Press(press.first, press.first + way_ticks)
     ramps = {max(1, item.reference_m_s.size - press.last): None for item in shaped[1:]}
-    tick_s = settings.tick_s
     plain = [
-        Contender(f"ramp of {ticks * tick_s:.4g} s", None, plain_ramp(held, ticks, speed_m_s))
+        Contender(f"ramp of {ticks * settings.tick_s:.4g} s", None, plain_ramp(held, ticks, speed_m_s))
         for ticks in ramps
     ]
     ramped = design.drive.acceleration_m_s2 is not None or design.drive.deceleration_m_s2 is not None
@@ -177,8 +182,6 @@ def _run(
     # A trajectory is at the end of its ticks: one more, and the last change has acted.
     stands = [max(contender.reference_m_s.size, hoisted) + 1 for _, contender in fields]
     ticks = max(stands) + math.ceil(slowest_s / tick_s)
-    if ticks > 2 * MOST_TICKS:
-        raise ControllerError(f"a move of {ticks * tick_s:g} s: at most {2 * MOST_TICKS} ticks are simulated")
     references = np.zeros((len(fields), ticks))
     for row, (_, contender) in zip(references, fields, strict=True):
         row[: contender.reference_m_s.size] = contender.reference_m_s
