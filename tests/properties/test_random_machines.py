@@ -50,7 +50,7 @@ KINDS = (
 MAY_BE_REFUSED = frozenset({15, 36, 37, 45, 48, 57})
 """Seeds that ask for too much, or nearly so; every other one must give a design."""
 
-REASONS = "enough for|holds 8 times|finer tick|ask for 5|more impulses"
+REASONS = "enough for|holds 8 times|finer tick|ask for 5|more impulses|fewer impulses"
 
 
 _WIDEST = {"si impulses": 1.3, "bank": 3.0, "bank bounded": 3.0, "bank rows": 3.0}

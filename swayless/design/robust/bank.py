@@ -31,8 +31,8 @@ _STEEPNESS = 0.5  # a usual d log(duration) / d log(tolerance), of the first ste
 _UNBALANCED = 1e-6  # relative: rows on ticks are balanced until they leave the same to this
 _BALANCING_ROUNDS = 3
 _JUMPED = 1e-5  # of the last row's excess: more of it shows a jump, which nothing balances
-_SUGGESTION = 1e-2  # relative, of a duration in a message
-_LONGEST = 20.0  # times a duration that is too short: how far a message looks for one that is not
+_LONGER = (1.03, 1.1, 1.2, 1.4, 1.8, 2.6, 4.0, 7.0, 12.0, 20.0)
+"""How many times as long a duration is tried for a message."""
 
 
 def ignore(_: int) -> None:
@@ -242,18 +242,13 @@ def _least_rest(rows: RowDesigner[Row], rest: Band, tolerance: float, duration_s
 
 
 def _too_many(chain: Chain, tolerance: float, duration_s: float) -> str:
-    """Say what would do where a knob has too few positions."""
-    size = crossing(
-        lambda size: chain.walk([tolerance] * MOST_ROWS, math.exp(size)).excess,
-        math.log(duration_s),
-        math.log(_LONGEST * duration_s),
-        steepness=2.0,
-        near=_SUGGESTION,
-        apart=_SUGGESTION,
-    )
+    """Say what would do where a knob has too few positions: the first of a few longer durations that does."""
     what = f"{chain.low_hz:g} to {chain.high_hz:g} Hz at {tolerance:g}: more than {MOST_ROWS} rows of "
-    if size is None:
+    for longer in _LONGER:
+        digit = 10.0 ** (math.floor(math.log10(longer * duration_s)) - 1)
+        enough_s = math.ceil(longer * duration_s / digit) * digit
+        if chain.walk([tolerance] * MOST_ROWS, enough_s).excess <= 0.0:
+            break
+    else:
         return f"{what}{duration_s:g} s; a longer duration or a larger tolerance needs fewer"
-    digit = 10.0 ** (math.floor(size / math.log(10.0)) - 1)
-    enough_s = math.ceil(math.exp(size) / digit) * digit
-    return f"{what}{duration_s:g} s; {MOST_ROWS} rows of about {enough_s:g} s do, or a larger tolerance"
+    return f"{what}{duration_s:g} s; {MOST_ROWS} rows of {enough_s:g} s do, or a larger tolerance"

@@ -90,7 +90,7 @@ def frontier(
     A band needs no more time than a wider one, and over whole stretches of widths as much:
 
     >>> frontier(1.0, [1.3, 1.4, 1.8]).durations_s.round(4)
-    array([0.8003, 0.8003, 0.9566])
+    array([0.8003, 0.8003, 0.9558])
     """
     widths = np.asarray(ratios, dtype=np.float64)
     if widths.ndim != 1 or widths.size == 0 or widths[0] < 1.0 or np.any(np.diff(widths) <= 0.0):

@@ -118,7 +118,7 @@ def convolved(command, row_table, number):
         amplitudes = [float(a) for a in row_table.amplitudes]
         command = [float(x) for x in command]
     return [
-        sum(a * command[k - d] for d, a in zip(row_table.delays_ticks, amplitudes, strict=True) if d <= k)
+        sum(a * command[k - d] for d, a in zip(row_table.lags, amplitudes, strict=True) if d <= k)
         for k in range(len(command))
     ]
 

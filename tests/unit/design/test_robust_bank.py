@@ -148,7 +148,7 @@ def test_progress_counts_the_rows() -> None:
         ),
         (
             lambda: cover(LOW_HZ, 5.0 * LOW_HZ, ContinuousRows(), duration_s=2.9),
-            r"more than 8 rows of 2.9 s; 8 rows of about 3 s do",
+            r"more than 8 rows of 2.9 s; 8 rows of 3 s do",
         ),
     ],
 )
