@@ -14,6 +14,8 @@ from swayless.controller.phase_filter_int32 import IntegerPhaseFilter
 from swayless.controller.ramp import Glider, on_grid, ramped
 from swayless.controller.rope import Rope
 from swayless.controller.settings import ShaperSettings
+from swayless.controller.spacing_filter import SpacedFilter
+from swayless.controller.spacing_laws import spaced_filter
 from swayless.controller.status import ERROR_BITS, Status
 from swayless.controller.tap_filter import TapFilter, tap_filter
 
@@ -344,8 +346,10 @@ class CommandShaper:
         return status
 
 
-def filter_of(settings: ShaperSettings) -> TapFilter | PhaseFilter:
+def filter_of(settings: ShaperSettings) -> TapFilter | PhaseFilter | SpacedFilter:
     """Make the filter of a block: of its clock, in its number type, at rest at 0."""
+    if settings.is_spaced:
+        return spaced_filter(settings)
     if settings.clock is None:
         return tap_filter(settings)
     return IntegerPhaseFilter(settings) if settings.number.is_integer else FloatPhaseFilter(settings)

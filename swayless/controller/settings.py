@@ -12,6 +12,7 @@ from swayless.controller.number import NumberType
 from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.phase_taps import PhaseTaps
 from swayless.controller.rope import RopeSettings
+from swayless.controller.spaced_taps import SpacedTaps
 from swayless.controller.status import ROPE_BITS, Status
 from swayless.controller.taps import Bank
 from swayless.errors import ControllerError
@@ -73,8 +74,9 @@ class ShaperSettings:
     rope: RopeSettings | None = None
 
     def __post_init__(self) -> None:
-        if self.rope is None and (self.clock is not None or self.bank.by_rope is not None):
-            raise ControllerError("the phase clock, and rows chosen by the rope, need a measured rope")
+        follows = self.clock is not None or self.bank.by_rope is not None or self.is_spaced
+        if self.rope is None and follows:
+            raise ControllerError("taps that follow the rope, and rows chosen by it, need a measured rope")
         if self.number.is_integer and self.clock is None:
             peak = max(sum(abs(a) for a in table.amplitudes) for table in self.row_tables)
             if peak * self.limits.max_command >= (1 << 62) - (
@@ -98,6 +100,11 @@ class ShaperSettings:
     def longest_delay_ticks(self) -> int:
         """Longest delay of any row."""
         return self.bank.longest_delay_ticks
+
+    @property
+    def is_spaced(self) -> bool:
+        """Whether rows follow a spacing: the original or the modified law."""
+        return isinstance(self.bank.rows[0].taps, SpacedTaps)
 
     @property
     def clock(self) -> PhaseClock | None:

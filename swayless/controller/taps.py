@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from swayless.controller.number import NumberType, amplitudes_on_lattice
 from swayless.controller.phase_taps import PhaseTaps
+from swayless.controller.spaced_taps import SpacedTaps
 from swayless.design.residual import residual_vibration
 from swayless.design.robustness import worst_residual_promised
 from swayless.design.shaper import FloatArray, Guarantee
@@ -190,13 +191,13 @@ class Row:
         What the operator calls it.
     family : str
         Family of the shaper, for reports only.
-    taps : Taps or PhaseTaps
+    taps : Taps, PhaseTaps or SpacedTaps
         What runs.
     """
 
     name: str
     family: str
-    taps: Taps | PhaseTaps
+    taps: Taps | PhaseTaps | SpacedTaps
 
 
 @dataclass(frozen=True)

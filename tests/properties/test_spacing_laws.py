@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swayless.controller import ShaperInput
+from swayless.controller import CommandShaper, ShaperInput
 from swayless.controller.rope import MM_PER_M
 from tests.properties.crane_moves import COMMAND_M_S, LONG_M, SHORT_M, hoist, residuals
 from tests.properties.strategies import NUMBERS, examples
 from tests.unit.controller.blocks import TICK_S, command_of, ramped_commands, run
-from tests.unit.controller.spaced_blocks import SpacedShaper, rope_block, spaced_block
+from tests.unit.controller.spaced_blocks import rope_block, spaced_block
 
 LAWS = ("original", "modified")
 SETTLED = 200
@@ -54,7 +54,7 @@ def released(settings, last):
 def test_a_released_block_comes_to_rest_at_exactly_0_and_never_leaves_the_maximum(data):
     settings = data.draw(spaced_blocks())
     history = data.draw(histories(settings))
-    outs = run(SpacedShaper(settings), history + released(settings, history[-1]))
+    outs = run(CommandShaper(settings), history + released(settings, history[-1]))
     assert (outs[-1].reference, outs[-1].stop_distance, outs[-1].stop_time_ticks) == (0, 0, 0)
     assert outs[-1].settled
     limit = settings.limits.max_command
@@ -68,7 +68,7 @@ def test_original_gives_back_every_sample_in_full(data):
     # Samples that meet in a tick are at most 12 a tap: a small command keeps them below the maximum.
     history = data.draw(histories(settings, ratio=1 / 64))
     inputs = history + released(settings, history[-1])
-    total = sum(float(out.reference) for out in run(SpacedShaper(settings), inputs))
+    total = sum(float(out.reference) for out in run(CommandShaper(settings), inputs))
     wanted = sum(float(command) for command in ramped_commands(settings, inputs))
     # A few hundred sums below 1/128, and the carry of a count.
     slack = {"double": 1e-13, "float": 1e-5, "int32": 0.5}[settings.number.name]
@@ -80,7 +80,7 @@ def test_original_gives_back_every_sample_in_full(data):
 def test_a_steady_command_dips_where_the_spacing_grows_under_the_original_law_only(law, worst, number):
     settings = spaced_block(number, law, amplitudes=[0.25, 0.5, 0.25], ticks=[5, 6])
     command = command_of(settings, 1.0)
-    shaper = SpacedShaper(settings)
+    shaper = CommandShaper(settings)
     held = [ShaperInput(command, rope_length=settings.number.scalar(place)) for place in (1, 2)]
     assert run(shaper, [held[0]] * 40)[-1].settled
     dips = [command - out.reference for out in run(shaper, [held[1]] * 40)]
@@ -99,7 +99,7 @@ def test_modified_stays_within_the_commands_of_the_longest_delay(data):
     reach = settings.longest_delay_ticks
     # A sum of five products is rounded five times; counts are rounded, with a carry.
     slack = {"double": 1e-15, "float": 4e-7, "int32": 1.0}[settings.number.name]
-    for k, out in enumerate(run(SpacedShaper(settings), inputs)):
+    for k, out in enumerate(run(CommandShaper(settings), inputs)):
         recent = command[max(k - reach, 0) : k + 1] + ([0.0] if k < reach else [])
         assert min(recent) - slack <= out.reference <= max(recent) + slack
 
@@ -114,7 +114,7 @@ def test_both_are_the_convolution_with_the_taps_while_the_position_is_still(data
     kernel[np.arange(taps.amplitudes.size) * taps.spacing.at(inputs[0].rope_length)] = taps.amplitudes
     command = np.array([float(x) for x in ramped_commands(settings, inputs)])
     expected = np.convolve(command, kernel)[: command.size]
-    found = np.array([float(out.reference) for out in run(SpacedShaper(settings), inputs)])
+    found = np.array([float(out.reference) for out in run(CommandShaper(settings), inputs)])
     slack = {"double": 1e-15, "float": 4e-7, "int32": 1.0}[settings.number.name]
     assert np.abs(found - expected).max() <= slack
 
@@ -124,7 +124,7 @@ def test_both_are_the_convolution_with_the_taps_while_the_position_is_still(data
 def test_stop_distance_and_time_come_true_while_the_position_is_still(data):
     settings = data.draw(spaced_blocks())
     inputs = data.draw(histories(settings, positions=False))
-    shaper, number = SpacedShaper(settings), settings.number
+    shaper, number = CommandShaper(settings), settings.number
     # As for the tick clock: a hundred sums below 16 m/s x ticks; in int32 half a millimetre, and a carry.
     slack_m = {"double": 1e-12, "float": 5e-6, "int32": 1e-3}[number.name]
     for k, now in enumerate(inputs):
@@ -148,7 +148,7 @@ def test_stop_distance_and_time_come_true_while_the_position_is_still(data):
 def test_after_an_emergency_stop_nothing_stays_behind(data):
     settings = data.draw(spaced_blocks())
     history = data.draw(histories(settings))
-    shaper, new = SpacedShaper(settings), SpacedShaper(settings)
+    shaper, new = CommandShaper(settings), CommandShaper(settings)
     free = history[-1]._replace(command=settings.number.scalar(0))
     run(shaper, [*history, history[-1]._replace(emergency_stop=True)])
     assert shaper.step(free) == new.step(free)
@@ -159,7 +159,7 @@ def test_after_an_emergency_stop_nothing_stays_behind(data):
 @pytest.mark.parametrize("law", LAWS)
 def test_in_float_nothing_drifts_under_a_command_that_never_rests(law):
     settings = spaced_block("float", law, amplitudes=[0.25, 0.5, 0.25], ticks=[5, 6, 7])
-    shaper, random = SpacedShaper(settings), np.random.default_rng(3)
+    shaper, random = CommandShaper(settings), np.random.default_rng(3)
     commands = random.uniform(-0.1, 0.1, 50_000).astype(np.float32)
     places = np.repeat(random.integers(1, 4, 5_000), 10).astype(np.float32)
     places[-60:] = places[-61]
@@ -181,7 +181,7 @@ def test_on_a_crane_that_hoists_while_it_travels_both_leave_percents(law, start_
         ShaperInput(command, rope_length=length)
         for command, length in zip(COMMAND_M_S.tolist(), rope.tolist(), strict=False)  # one length more
     ]
-    left = float(residuals(np.array([out.reference for out in run(SpacedShaper(settings), inputs)]), rope))
+    left = float(residuals(np.array([out.reference for out in run(CommandShaper(settings), inputs)]), rope))
     print(f"{law} {start_m} to {end_m} m: {100 * left:.2f} %")
     # The phase clock leaves 0.003 % here (test_phase_residual).
     assert 0.02 < left < 0.1

@@ -16,6 +16,7 @@ from swayless.controller.status import ROPE_BITS
 from swayless.errors import CodegenError
 from tests.unit.codegen.test_provenance import ORIGIN
 from tests.unit.controller.blocks import EI, UM_SPLIT, ZVD, block
+from tests.unit.controller.spaced_blocks import rope_block
 
 EVERYTHING = {
     "minimum_speed_m_s": 0.03,
@@ -95,3 +96,10 @@ def test_parts_of_the_law_that_a_design_does_not_use_are_not_printed(number):
     for word in ("INCHING_COMMAND", "MINIMUM_COMMAND", "COMMAND_RESOLUTION", "WAITS["):
         assert word not in plain
         assert word in full
+
+
+@pytest.mark.parametrize("target", ["c", "st"])
+def test_laws_without_code_are_refused(target):
+    settings = rope_block("double", "modified")
+    with pytest.raises(CodegenError, match="runs as the Python reference only"):
+        generate(settings, ORIGIN, target)

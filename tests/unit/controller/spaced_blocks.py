@@ -6,7 +6,6 @@ import numpy as np
 
 from swayless.controller import (
     Bank,
-    CommandShaper,
     Row,
     ShaperSettings,
     SpeedLimits,
@@ -16,18 +15,9 @@ from swayless.controller import (
 from swayless.controller.rope import RopeSettings, rope_settings
 from swayless.controller.spaced_taps import SpacedTaps, spaced_taps
 from swayless.controller.spacing import Spacing, rope_spacing
-from swayless.controller.spacing_laws import spaced_filter
 from swayless.design import design_shaper
 from swayless.plant import Mode
 from tests.unit.controller.blocks import COUNTS_PER_M_S, GUARANTEE, TICK_S
-
-
-class SpacedShaper(CommandShaper):
-    """A command shaper with the filter of its law."""
-
-    def init(self):
-        super().init()
-        self._filter = spaced_filter(self._settings)
 
 
 def settings_of(taps, rope, *, tick_s=TICK_S, **limits):

@@ -76,5 +76,5 @@ def test_rows_that_do_not_fall_and_overlap_are_refused(lower, upper):
 
 
 def test_a_bank_without_a_measured_rope_is_refused():
-    with pytest.raises(ControllerError, match="need a measured rope"):
+    with pytest.raises(ControllerError, match="chosen by it, need a measured rope"):
         dataclasses.replace(chosen_by_rope("double"), rope=None)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from swayless.controller import Bank, Row, Taps, number_type, quantised_taps
+from swayless.controller.taps import RopeRows
 from swayless.design.residual import residual_vibration
 from swayless.design.robustness import guarantee_of
 from swayless.errors import ControllerError
@@ -92,8 +93,8 @@ def test_a_bank_refuses_what_does_not_fit_together():
     ):
         with pytest.raises(ControllerError, match=message):
             Bank(rows)
-    with pytest.raises(ControllerError, match="selection = 'rope_length': this version knows 'knob' only"):
-        Bank((row,), "rope_length")
+    with pytest.raises(ControllerError, match="2 rope intervals for 1 rows"):
+        Bank((row,), RopeRows((6.0, 3.0), (9.0, 7.0)))
 
 
 def test_row_tables_hold_the_unshaped_row_and_the_exact_moments():
