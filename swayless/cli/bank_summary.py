@@ -40,7 +40,8 @@ def print_bank(design: DesignFile, bank: BankRecord) -> None:
     print_line("proven: in less no shaper with such amplitudes holds as much; overtravel: from full speed")
     for line in (*switching(bank), *_waiting(design)):
         print_line(line)
-    print_line(f"on the pendant: {'   '.join(bank.labels)}")
+    if bank.selection == "knob":
+        print_line(f"on the pendant: {'   '.join(bank.labels)}")
 
 
 def switching(bank: BankRecord) -> Iterator[str]:
@@ -62,7 +63,8 @@ def switching(bank: BankRecord) -> Iterator[str]:
     least = min(overlaps)
     seen = least >= VISIBLE * max(places)
     shared = f"both hold {least:.3g} {unit} there at least" if seen else "bands meet there"
-    yield f"turn the knob from {turns}: {shared}"
+    who = "turn the knob" if bank.selection == "knob" else "the measured rope changes the row"
+    yield f"{who} from {turns}: {shared}"
 
 
 def _row(shaper: ShaperRecord, bank: BankRecord, max_speed_m_s: float) -> list[str]:

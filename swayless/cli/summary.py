@@ -38,7 +38,7 @@ class Ways(NamedTuple):
 
 
 def ways(settings: ShaperSettings, row: int) -> Ways:
-    """Ask the block's own reference for the ways of a row; where the rope is measured, on the longest.
+    """Ask the block's own reference for the ways of a row; where the rope is measured, on its longest.
 
     Parameters
     ----------
@@ -52,7 +52,10 @@ def ways(settings: ShaperSettings, row: int) -> Ways:
     shaper = CommandShaper(settings)
     limits = settings.limits
     rope = 0 if settings.rope is None else settings.rope.longest
-    full = ShaperInput(command=limits.max_command, selector=row, rope_length=rope)
+    selector, by_rope = row, settings.bank.by_rope
+    if by_rope is not None and row > 0:
+        selector, rope = 1, by_rope.upper[row - 1]
+    full = ShaperInput(command=limits.max_command, selector=selector, rope_length=rope)
     ramp_ticks = int(limits.max_command / limits.acceleration_step) + 2
     first = steady = shaper.step(full)
     for _ in range(ramp_ticks + 2 * settings.longest_delay_ticks + 2):
@@ -92,7 +95,9 @@ def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
         row = [f"{knob}", shaper.name, shaper.family, f"<= {per_cent(taps.guarantee.tolerance)}"]
         row += [interval(*_held(design, taps)), f"{taps.duration_s:.4g}"]
         rows.append([*row, f"{way.released_m:.3f}", f"{way.quick_m:.3f}"])
-    print_table(f"{design.name}: what each position of the knob guarantees", columns, rows)
+    knob_turns = design.bank is None or design.bank.selection == "knob"
+    who = "each position of the knob guarantees" if knob_turns else "each row guarantees; the rope chooses"
+    print_table(f"{design.name}: what {who}", columns, rows)
     print_line(STOPS_NOTE)
     for line in (*_robust_remarks(design), *_remarks(design, settings)):
         print_line(line)
@@ -110,7 +115,8 @@ def _robust_remarks(design: DesignFile) -> Iterator[str]:
             yield f"row {knob}, {line}"
     if design.bank is not None:
         yield from switching(design.bank)
-        yield f"on the pendant: {'   '.join(design.bank.labels)}"
+        if design.bank.selection == "knob":
+            yield f"on the pendant: {'   '.join(design.bank.labels)}"
 
 
 def _remarks(design: DesignFile, settings: ShaperSettings) -> Iterator[str]:

@@ -22,7 +22,7 @@ class Features:
     has_phase_clock : bool
         Whether delays are phases of the pendulum.
     has_rope_rows : bool
-        Whether the rope chooses the row.
+        Whether the rope chooses among several rows.
     """
 
     has_minimum: bool
@@ -64,5 +64,5 @@ def features_of(settings: ShaperSettings) -> Features:
         has_waiting_rows=any(table.waits for table in settings.row_tables),
         has_rope=settings.rope is not None,
         has_phase_clock=settings.clock is not None,
-        has_rope_rows=settings.bank.by_rope is not None,
+        has_rope_rows=settings.bank.by_rope is not None and len(settings.bank.rows) > 1,
     )

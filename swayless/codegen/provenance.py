@@ -16,6 +16,9 @@ NOT_IN_COMMENTS = "*{}$\\"
 """Characters with which a text could end a comment, begin one, or be a pragma or an escape in some target."""
 
 
+_WHO_CHOOSES = {True: "Rows of the selector", False: "Rows, of which the measured rope chooses one"}
+
+
 @dataclass(frozen=True)
 class Provenance:
     """Where a design comes from; passed in, so that the same design file gives the same bytes for ever.
@@ -107,7 +110,8 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
         "This file is yours: use, change and ship it as you like.",
         "",
         *law_lines(settings),
-        "Rows of the selector, and the residual vibration that each guarantees on these very taps:",
+        f"{_WHO_CHOOSES[settings.bank.by_rope is None]}, and the residual vibration that each guarantees "
+        "on these very taps:",
         "  0 unshaped (ramped only)",
     ]
     for position, row in enumerate(settings.bank.rows, start=1):

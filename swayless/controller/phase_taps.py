@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from swayless.controller.number import NumberType, amplitudes_on_lattice
 from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.rope import MM_PER_M
+from swayless.design.grid import LARGEST_DURATION_TICKS
 from swayless.design.shaper import FloatArray, Guarantee
 from swayless.errors import ControllerError
 from swayless.plant import STANDARD_GRAVITY_M_S2
@@ -68,6 +69,11 @@ class PhaseTaps:
             raise ControllerError(
                 f"tick_s = {self.tick_s!r}: on the shortest rope a tick is longer than the "
                 f"{phase_rad:.3g} rad between two taps; a finer tick, or a longer shortest rope, does"
+            )
+        if lags[-1] > LARGEST_DURATION_TICKS * self.clock.fewest_quanta:
+            raise ControllerError(
+                f"tick_s = {self.tick_s!r}: on the longest rope the taps last more than "
+                f"{LARGEST_DURATION_TICKS} ticks; a coarser tick does"
             )
         lags.flags.writeable = amplitudes.flags.writeable = False
         object.__setattr__(self, "lags", lags)

@@ -65,7 +65,7 @@ def check_phase_plant(plant: PlantSection, table: Table, *, contactor: bool) -> 
     if plant.hoist_speed_m_s is None and "hoist_speed" not in table.raw:
         table.place("hoist_speed").problem('missing: law = "phase" needs the fastest that the hoist moves')
     if contactor:
-        table.place("contactor").problem('a contactor drive cannot follow law = "phase"')
+        table.report.problems.append(f'{table.report.file}: [drive] contactor: cannot follow law = "phase"')
 
 
 def read_phase_row(table: Table, plant: PlantSection | None) -> RowSection | None:
@@ -114,6 +114,8 @@ def design_phase_row(row: RowSection, plant: PlantSection, *, tick_s: float, num
             promise = replace(taps.guarantee, worst_residual_ratio=worst)
             return PhaseDesign(replace(shaper, guarantee=held), replace(taps, guarantee=promise))
         aim -= _MARGIN * (worst - row.tolerance)
+        if aim <= 0.0:
+            break
     raise DesignError(
         f"on ticks of {tick_s:g} s the taps leave {100 * worst:.4g} % on a still rope, more than "
         f"{100 * row.tolerance:g} %; a finer tick does"
