@@ -138,7 +138,10 @@ def test_progress_counts_the_rows() -> None:
         ),
         (lambda: cover_with(0, 0.2, 0.6, BOUNDED, duration_s=3.0), r"rows = 0: must be 1 to 8"),
         (lambda: cover_with(9, 0.2, 0.6, BOUNDED, duration_s=3.0), r"rows = 9: must be 1 to 8"),
-        (lambda: cover_with(1, 0.2, 1.2, BOUNDED, duration_s=2.0), r"more rows or a longer duration do"),
+        (
+            lambda: cover_with(1, 0.2, 0.6, ContinuousRows(), duration_s=2.4),
+            r"more rows or a longer duration do",
+        ),
         (lambda: cover_with(3, 0.2, 0.3, BOUNDED, duration_s=9.0), r"at 0.01 already; fewer rows"),
         (lambda: cover(0.2, 0.6, BOUNDED, duration_s=0.5), r"too short"),
         (lambda: cover(0.2, 0.6, BOUNDED, duration_s=20.0), r"a longest one instead of a fixed one"),
