@@ -79,7 +79,16 @@ def test_an_output_that_takes_nothing_is_an_error_without_traceback(unbuffered):
     assert done.stderr.decode() == "error: [Errno 28] No space left on device\n"
 
 
+@pytest.fixture
+def interruptible():
+    """Shells let what runs in the background ignore interrupts, and children inherit that: not here."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows interrupts by other means")
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_build_leaves_nothing_behind(arm, tmp_path):
     temporary = tmp_path / "temporary"
     temporary.mkdir()
@@ -87,7 +96,10 @@ def test_an_interrupted_build_leaves_nothing_behind(arm, tmp_path):
     environment = {**os.environ, "TMPDIR": str(temporary)}
     command = [*PROGRAM, "build", arm, "-o", tmp_path / "out"]
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=environment,
     ) as process:
         deadline = time.monotonic() + 60.0
         while not list(temporary.iterdir()) and time.monotonic() < deadline:  # until it compiles
