@@ -71,7 +71,8 @@ def _row(shaper: ShaperRecord, bank: BankRecord, max_speed_m_s: float) -> list[s
     runs = shaper.taps or shaper
     held = runs.guarantee
     ends = held.frequency_hz if bank.switching_rope_length_m is None else held.rope_length_m
-    bound = "-" if shaper.lower_bound_s is None else rounded_down(shaper.lower_bound_s, 5)
+    proved_s = shaper.lower_bound_s if held.tolerance <= shaper.guarantee.tolerance else None
+    bound = "-" if proved_s is None else rounded_down(proved_s, 5)  # taps that leave more prove nothing
     leaves = f"<= {at_most(held.worst_residual_ratio, 4)}"
     return [
         interval(*ends, digits=5),

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from swayless.design import GridShaper, Guarantee, Shaper, design_shaper, solve_on_grid
+from swayless.design.robust.demand import TOLERANCES
 from swayless.design.robust.specified import RobustDesign, fixed_duration, specified_insensitivity
 from swayless.design.robust.ticks import (
     RobustTaps,
@@ -71,7 +72,7 @@ def robust_design(made: RobustDesign | RobustTaps, tick_s: float | None) -> RowD
     """Complete a robust design: on ticks, where it is not there yet.
 
     Unity-magnitude impulses lie between ticks. A drive that can make levels between 0 and full speed follows
-    them by levels that last a tick: by bounded taps that hold the same.
+    them by levels that last a tick: by bounded taps that hold the same, or the smallest tolerance.
     """
     if isinstance(made, RobustTaps):
         return RowDesign(made.ideal.shaper, made.taps, made.ideal.lower_bound_s)
@@ -80,7 +81,7 @@ def robust_design(made: RobustDesign | RobustTaps, tick_s: float | None) -> RowD
         taps = specified_insensitivity_on_ticks(
             held.bands,
             tick_s,
-            tolerance=held.tolerance,
+            tolerance=max(held.tolerance, TOLERANCES[0]),
             damping_ratio=held.damping_ratios,
             amplitudes="bounded",
         ).taps

@@ -57,3 +57,13 @@ def test_rows_that_do_not_hold_what_they_would_be_chosen_for_are_refused(tmp_pat
     wide = dataclasses.replace(design.bank, hysteresis_m=1.0)
     with pytest.raises(ControllerError, match="would be chosen from"):
         shaper_settings(dataclasses.replace(design, bank=wide))
+
+
+def test_the_five_impulses_of_kriikku_section_iii_make_a_bank_on_ticks(tmp_path):
+    options = {"tolerance": "5 %", "duration": "3 s", "amplitudes": "unity-magnitude", "impulses": "5"}
+    path = tmp_path / "crane.toml"
+    path.write_text(example_text("srtc-gantry"))
+    design = design_machine(load_machine(path, options))
+    places_ft = [place / 0.3048 for place in design.bank.switching_rope_length_m]
+    assert places_ft == pytest.approx([24.654, 20.230, 9.830], abs=2e-3)
+    assert all(shaper.taps.guarantee.worst_residual_ratio <= 0.05 for shaper in design.shapers)
