@@ -62,7 +62,7 @@ def switching(bank: BankRecord) -> Iterator[str]:
     )
     least = min(overlaps)
     seen = least >= VISIBLE * max(places)
-    shared = f"both hold {least:.3g} {unit} there at least" if seen else "bands meet there"
+    shared = f"both hold {rounded_down(least, 3)} {unit} there at least" if seen else "bands meet there"
     who = "turn the knob" if bank.selection == "knob" else "the measured rope changes the row"
     yield f"{who} from {turns}: {shared}"
 

@@ -89,8 +89,8 @@ def tradeoff_figure(name: str, need: Need, *, widths: int = 48) -> Figure:
         _draw_ways(ways, need, families, fronts)
         for axes in (durations, ways):
             _scale(axes, need, ratios)
-        start = "longest rope" if need.on_rope else "lowest frequency"
-        durations.set_title(f"every design holds a range from the {start} up")
+        start = "longest rope down" if need.on_rope else "lowest frequency up"
+        durations.set_title(f"every design holds a range from the {start}")
         legend_beside(durations, _legend(need))
         if missing:
             ways.set_title(f"does not exist at this tolerance and damping: {', '.join(missing)}")

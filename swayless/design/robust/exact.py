@@ -77,10 +77,14 @@ def widest(duration: float, damping_ratio: float, tolerance: float, rule: Amplit
 def worst_at_ends(
     duration: float, damping_ratio: float, tolerance: float, rule: AmplitudeRule
 ) -> tuple[float, float]:
-    """Bound what a duration leaves at frequency 1 alone from below, and up to the widest ratio from above."""
-    narrow, _ = residual_range([Line(1.0, 1.0, damping_ratio)], duration, tolerance, rule)
+    """Bound what a duration leaves at frequency 1 alone from below, and up to the widest ratio from above.
+
+    A duration that is ample for the widest ratio is as good as any longer one.
+    """
+    ample = min(duration, _AMPLE)
+    narrow, _ = residual_range([Line(1.0, 1.0, damping_ratio)], ample, tolerance, rule)
     widest_line = Line(1.0, WIDEST_RATIO, damping_ratio)
-    _, wide = residual_range([widest_line], min(duration, _AMPLE), tolerance, rule)
+    _, wide = residual_range([widest_line], ample, tolerance, rule)
     return narrow, wide
 
 
@@ -135,7 +139,7 @@ def proven_duration(optimum: Optimum, lines: Sequence[Line], tolerance: float, r
     raise DesignError(
         f"the design found, of {optimum.duration:.6g} periods of the lowest frequency, is not proved within "
         f"{_GAPS[-1]:.2%} of the shortest: {shorter[-1].duration:.6g} periods leave at least {bound:.6g}, "
-        f"not {tolerance:.6g}; a tolerance a little off has a proof"
+        f"not {tolerance:.6g}; try a larger tolerance or a narrower band"
     )
 
 
