@@ -163,7 +163,8 @@ class CTables:
             tables.append(
                 c_table("bool", "WAITS", waits, "rows with negative amplitudes: commands wait for rest")
             )
-        tables += rope_row_tables(self._settings.bank.by_rope, self._types)
+        if self._features.has_rope_rows:
+            tables += rope_row_tables(self._settings.bank.by_rope, self._types)
         return tables + (
             phase_tables(self._settings, self._types) if self._settings.clock is not None else []
         )

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from swayless.codegen import GeneratedFile, c_harness, generate
+from swayless.controller import Bank
 from swayless.controller.status import ROPE_BITS
+from swayless.controller.taps import RopeRows
 from swayless.verify import COMPILERS, compare, find_compiler
 from swayless.verify.c_run import CompiledBlock
 from swayless.verify.reference_run import run_reference
@@ -137,3 +139,13 @@ def test_settings_of_other_ropes_give_other_code():
     settings = gantry("double")
     other = dataclasses.replace(settings, rope=dataclasses.replace(settings.rope, hoist_speed=0.5))
     assert generate(settings, ORIGIN, "c")[1].text != generate(other, ORIGIN, "c")[1].text
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_a_bank_of_one_row_that_the_rope_could_choose_compiles_and_equals_the_reference(number):
+    three = BLOCKS["chosen by rope"](number)
+    rows = RopeRows(three.bank.by_rope.lower[-1:], three.bank.by_rope.upper[:1])
+    settings = dataclasses.replace(three, bank=Bank(three.bank.rows[:1], rows))
+    stimulus = soak(settings, ticks=SOAK_TICKS)
+    with compiled(settings) as block:
+        assert compare(run_reference(settings, stimulus.inputs), block.run(stimulus.inputs)).is_equal
