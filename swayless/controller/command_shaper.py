@@ -42,10 +42,10 @@ class ShaperInput(NamedTuple):
     quick_stop, emergency_stop : bool
         Stop on the quick-stop ramp, unshaped; reference 0 at once.
     rope_length, hoist_speed : float or int
-        Rope length in m and its change in m/s, positive when the load sinks; in int32 mm and mm/s. Read by
-        blocks with a measured rope only.
+        The measured quantity (`measured`) and its change: rope length in m and m/s, positive when the load
+        sinks, or position of an arm in m or rad; in int32 thousandths. Read by blocks that measure one only.
     rope_length_valid : bool
-        False: the rope length is not to be believed.
+        False: the measured quantity is not to be believed.
     """
 
     command: Any = 0

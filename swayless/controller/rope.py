@@ -1,7 +1,8 @@
 """The measured rope: what a block makes of its length and hoist speed, tick by tick. Not for: shaping.
 
 A length is taken only where it can be true: a reading that is not valid, not finite or farther from the last
-one than the hoist could have moved is not taken, and the last one holds.
+one than the hoist could have moved is not taken, and the last one holds. The position of an arm is read in
+the same way (`measured`).
 """
 
 from __future__ import annotations
@@ -10,15 +11,19 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from swayless.controller.measured import ROPE, Measured
 from swayless.controller.number import NumberType, as_written
 from swayless.controller.status import Status
 from swayless.errors import ControllerError
 
 MM_PER_M = 1000
-"""In int32 lengths are in mm and hoist speeds in mm/s."""
+"""In int32 lengths are in mm and hoist speeds in mm/s, angles in mrad and mrad/s."""
 
 PLAUSIBLE_JUMP_M = 0.05
-"""Difference of two readings that no hoist explains and that is taken all the same: stretch and sensors."""
+"""Difference of two readings that no hoist explains and that is taken all the same: stretch and sensors.
+
+Of angles, 0.05 rad.
+"""
 
 MOST_HELD_TICKS = 1 << 20
 """The ticks for which a reading is held are counted up to here; by then the hoist may be anywhere."""
@@ -35,7 +40,7 @@ class RopeSettings:
     Parameters
     ----------
     shortest, longest : float or int
-        Range of the rope length, 0 < shortest < longest.
+        Range of the rope length, 0 < shortest < longest; of the position of an arm, shortest < longest.
     hoist_speed : float or int
         Fastest change of the rope length.
     jump : float or int
@@ -44,6 +49,13 @@ class RopeSettings:
         Farthest that the rope can move in one tick; in int32 rounded up.
     tick_s : float or int
         Length of a tick; in int32 in microseconds.
+    measured : Measured
+        What is measured: a rope, or the position of an arm in m or rad.
+
+    Raises
+    ------
+    ControllerError
+        If a range is empty, a rope is not above 0, or nothing moves it.
     """
 
     shortest: Any
@@ -52,32 +64,41 @@ class RopeSettings:
     jump: Any
     way_per_tick: Any
     tick_s: Any
+    measured: Measured = ROPE
 
     def __post_init__(self) -> None:
-        if not 0 < self.shortest < self.longest:
-            raise ControllerError(
-                f"rope length {self.shortest!r} to {self.longest!r}: a measured rope needs two lengths, "
-                "the shorter above 0"
-            )
+        span = f"{self.measured.title} {self.shortest!r} to {self.longest!r}"
+        if self.measured.is_length and not 0 < self.shortest < self.longest:
+            raise ControllerError(f"{span}: a measured rope needs two lengths, the shorter above 0")
+        if not self.shortest < self.longest:
+            raise ControllerError(f"{span}: must be two places, the lower one first")
         if not self.hoist_speed > 0:
-            raise ControllerError(f"hoist_speed = {self.hoist_speed!r}: must be above 0")
+            name = self.measured.c_speed_name
+            raise ControllerError(f"{name} = {self.hoist_speed!r}: must be above 0")
 
 
 def rope_settings(
-    rope_length_m: tuple[float, float], hoist_speed_m_s: float, *, tick_s: float, number: NumberType
+    rope_length_m: tuple[float, float],
+    hoist_speed_m_s: float,
+    *,
+    tick_s: float,
+    number: NumberType,
+    measured: Measured = ROPE,
 ) -> RopeSettings:
-    """Bring the range of a rope into a number type.
+    """Bring the range of a rope, or of the position of an arm, into a number type.
 
     Parameters
     ----------
     rope_length_m : tuple of float
-        Shortest and longest.
+        Shortest and longest; of an arm the lowest and highest position, in m or rad.
     hoist_speed_m_s : float
-        Fastest change of the rope length, > 0.
+        Fastest change of the rope length, or of the position, > 0.
     tick_s : float
         Length of a tick.
     number : NumberType
         Target type.
+    measured : Measured
+        What is measured.
 
     Raises
     ------
@@ -100,6 +121,7 @@ def rope_settings(
             jump=round(PLAUSIBLE_JUMP_M * MM_PER_M),
             way_per_tick=math.ceil(way_m * MM_PER_M),
             tick_s=math.ceil(as_written(tick_s) * 1_000_000),
+            measured=measured,
         )
     scalar = number.scalar
     return RopeSettings(
@@ -109,6 +131,7 @@ def rope_settings(
         scalar(PLAUSIBLE_JUMP_M),
         scalar(float(way_m)),
         scalar(tick_s),
+        measured,
     )
 
 
