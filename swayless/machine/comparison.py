@@ -37,9 +37,10 @@ def same_design(stored: DesignFile, fresh: DesignFile, *, relative: float = RELA
 
 def _differences(path: str, stored: Any, fresh: Any, relative: float) -> Iterator[str]:
     if isinstance(stored, dict) and isinstance(fresh, dict):
-        for key in stored:
+        for key in stored | fresh:
             if key not in _PROVENANCE:
-                yield from _differences(f"{path}.{key}" if path else key, stored[key], fresh[key], relative)
+                place = f"{path}.{key}" if path else key
+                yield from _differences(place, stored.get(key), fresh.get(key), relative)
     elif isinstance(stored, list) and isinstance(fresh, list):
         yield from _in_arrays(path, stored, fresh, relative)
     elif not _same(stored, fresh, 0.0, relative):

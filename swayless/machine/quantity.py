@@ -15,7 +15,9 @@ from typing import Literal, TypeAlias
 from swayless.errors import PlantError
 from swayless.machine.problems import RefusedError, shown
 
-Dimension: TypeAlias = Literal["length", "time", "speed", "acceleration", "frequency", "mass", "ratio"]
+Dimension: TypeAlias = Literal[
+    "length", "angle", "time", "speed", "turning speed", "acceleration", "frequency", "mass", "ratio"
+]
 
 _LENGTHS = {
     "m": Fraction(1),
@@ -25,9 +27,16 @@ _LENGTHS = {
     "ft": Fraction("0.3048"),
 }
 
+_ANGLES = {
+    "rad": Fraction(1),
+    "mrad": Fraction("0.001"),
+    "deg": Fraction("3.14159265358979323846264338327950288") / 180,
+}
+
 UNITS: Mapping[Dimension, Mapping[str, Fraction]] = MappingProxyType(
     {
         "length": _LENGTHS,
+        "angle": _ANGLES,
         "time": {
             "s": Fraction(1),
             "ms": Fraction("0.001"),
@@ -39,6 +48,7 @@ UNITS: Mapping[Dimension, Mapping[str, Fraction]] = MappingProxyType(
             for time, seconds in (("s", 1), ("min", 60))
             for length, factor in _LENGTHS.items()
         },
+        "turning speed": {f"{angle}/s": factor for angle, factor in _ANGLES.items()},
         "acceleration": {f"{length}/s2": factor for length, factor in _LENGTHS.items()},
         "frequency": {
             "Hz": Fraction(1),
@@ -50,7 +60,10 @@ UNITS: Mapping[Dimension, Mapping[str, Fraction]] = MappingProxyType(
         "ratio": {"%": Fraction("0.01")},
     }
 )
-"""Exact size of each unit in SI, by dimension (inch, foot and pound: international agreement of 1959)."""
+"""Exact size of each unit in SI, by dimension (inch, foot and pound: international agreement of 1959).
+
+The size of a degree is not rational: it has 35 digits, more than any double can tell from all of them.
+"""
 
 _MAX_TEXT_LENGTH = 64
 _TEXT = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*([^0-9\s].*)?")
@@ -72,13 +85,13 @@ def parse_quantity(value: object, dimension: Dimension) -> float:
     value : object
         A number, taken as SI, or a text such as ``"29 ft"``; a text without a unit is SI too. ``m/s^2`` and
         ``m/s2`` are the same unit.
-    dimension : {"length", "time", "speed", "acceleration", "frequency", "mass", "ratio"}
-        What the value has to be.
+    dimension : str
+        What the value has to be, one of `UNITS`.
 
     Returns
     -------
     float
-        The double nearest to the exact value in m, s, m/s, m/s2, Hz or kg, or the ratio.
+        The double nearest to the exact value in m, rad, s, m/s, rad/s, m/s2, Hz or kg, or the ratio.
 
     Raises
     ------
@@ -89,6 +102,8 @@ def parse_quantity(value: object, dimension: Dimension) -> float:
     --------
     >>> parse_quantity("29 ft", "length"), parse_quantity("5 %", "ratio"), parse_quantity(2, "time")
     (8.8392, 0.05, 2.0)
+    >>> parse_quantity("180 deg", "angle")
+    3.141592653589793
     >>> parse_quantity("10 kg", "time")
     Traceback (most recent call last):
     swayless.machine.quantity.QuantityError: "10 kg" is not a time: allowed units are s, ms, us, min
@@ -128,4 +143,4 @@ def _from_text(text: str, dimension: Dimension) -> float:
 
 
 def _article(dimension: Dimension) -> str:
-    return f"an {dimension}" if dimension == "acceleration" else f"a {dimension}"
+    return f"an {dimension}" if dimension[0] == "a" else f"a {dimension}"

@@ -9,7 +9,7 @@ Not for: what one document holds (`swayless.machine.design_document`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 from swayless.machine.problems import Check, Place, Table
@@ -31,10 +31,14 @@ class Member:
         Turns the parsed JSON value into the value of the field, or reports what is wrong.
     stored : callable
         Turns the value of the field into what is stored: rounded, and made of JSON types.
+    stands_always : bool
+        Whether the key is there in every document. One that is not stands only where it has a value: a
+        document that does not need it knows nothing of it.
     """
 
     check: Check[Any]
     stored: Callable[[Any], Any] = _as_is
+    stands_always: bool = True
 
 
 @dataclass(frozen=True)
@@ -59,7 +63,10 @@ def read_record(cls: type[R], value: object, place: Place) -> R | None:
         return None
     found_before = len(place.report.problems)
     table = Table(value, place.report, f"{place.path}." if place.path else "")
-    values = {key: table.need(key, member.check) for key, member in members(cls).items()}
+    values = {
+        key: table.need(key, member.check) if member.stands_always else table.take(key, member.check, None)
+        for key, member in members(cls).items()
+    }
     table.close()
     if len(place.report.problems) > found_before:
         return None
@@ -71,7 +78,12 @@ def read_record(cls: type[R], value: object, place: Place) -> R | None:
 
 def document_of(record: Record) -> dict[str, Any]:
     """Give what is stored of a record: rounded numbers in JSON types, keys in the order of the fields."""
-    return {key: member.stored(getattr(record, key)) for key, member in members(type(record)).items()}
+    values = {key: (member, getattr(record, key)) for key, member in members(type(record)).items()}
+    return {
+        key: member.stored(value)
+        for key, (member, value) in values.items()
+        if member.stands_always or value is not None
+    }
 
 
 def one(cls: type[Record]) -> Member:
@@ -98,6 +110,11 @@ def optional(member: Member) -> Member:
         lambda value, place: None if value is None else member.check(value, place),
         lambda value: None if value is None else member.stored(value),
     )
+
+
+def where_needed(member: Member) -> Member:
+    """Member whose key stands only where there is a value; its field is None elsewhere."""
+    return replace(member, stands_always=False)
 
 
 def several(member: Member, *, at_least: int, at_most: int) -> Member:

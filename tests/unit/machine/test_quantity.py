@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 import pytest
@@ -30,6 +31,10 @@ from swayless.machine.quantity import UNITS, parse_quantity
         ("5%", "ratio", 0.05),
         ("-1e3 mm", "length", -1.0),
         ("0.25", "length", 0.25),
+        ("180 deg", "angle", math.pi),
+        ("-30 deg", "angle", -0.5235987755982989),  # pi / 6 = 0.52359877559829887...
+        ("500 mrad", "angle", 0.5),
+        ("90deg/s", "turning speed", math.pi / 2.0),
         (2, "time", 2.0),
         (0.05, "ratio", 0.05),
     ],
@@ -51,6 +56,7 @@ def test_quantity_is_the_double_nearest_to_its_exact_value(value: object, dimens
             "acceleration",
             '"1 m/s" is not an acceleration: allowed units are m/s2, cm/s2, mm/s2, in/s2, ft/s2',
         ),
+        ("30 m", "angle", '"30 m" is not an angle: allowed units are rad, mrad, deg'),
         ("nan m", "length", '"nan m" is not a length: allowed units are m, cm, mm, in, ft'),
         ("\u0663 m", "length", '"\\u0663 m" is not a length: allowed units are m, cm, mm, in, ft'),
         ("1e9999 m", "length", '"1e9999 m" is not a length: allowed units are m, cm, mm, in, ft'),
