@@ -248,7 +248,7 @@ class CommandShaper:
             self._row = 0 if self._inching else self._wanted_row
         self._accept(command)
         before, self._command = self._command, ramped(self._command, self._target, self._limits)
-        still = min(self._still + self._filter.elapsed, self._last)
+        still = max(min(self._still + self._filter.elapsed, self._last), 0)
         self._still = still if self._command == before else 0
         if self._still >= self._tables[self._row].tail:
             self._filter.rest(self._command)
