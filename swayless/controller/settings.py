@@ -13,7 +13,7 @@ from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.phase_taps import PhaseTaps
 from swayless.controller.rope import RopeSettings
 from swayless.controller.spaced_taps import SpacedTaps
-from swayless.controller.status import ROPE_BITS, Status
+from swayless.controller.status import OPTIONAL_BITS, ROPE_BITS, Status
 from swayless.controller.taps import Bank
 from swayless.errors import ControllerError
 
@@ -125,7 +125,8 @@ class ShaperSettings:
     @property
     def status_bits(self) -> tuple[Status, ...]:
         """Bits of the status word that the block can set."""
-        return tuple(bit for bit in Status if self.rope is not None or not bit & ROPE_BITS)
+        absent = Status(0) if self.rope is not None else ROPE_BITS
+        return tuple(bit for bit in Status if not bit & (absent | OPTIONAL_BITS))
 
     @cached_property
     def row_tables(self) -> tuple[RowTable, ...]:

@@ -27,6 +27,20 @@ class Status(IntFlag):
     ROPE_JUMP = 1 << 13
     ROPE_FROZEN = 1 << 14
     HOIST_SPEED_INVALID = 1 << 15
+    STEPPING = 1 << 16
+    STEP_REFUSED = 1 << 17
+    STEP_SIZE_INVALID = 1 << 18
+    COMMAND_LOCKED = 1 << 19
+    STOP_SWITCH = 1 << 20
+    SLOW_SWITCH = 1 << 21
+    WAY_LIMITS = 1 << 22
+    WAY_TOO_SHORT = 1 << 23
+    DISTANCE_INVALID = 1 << 24
+    DRIVE_NOT_READY = 1 << 25
+    SPEED_LIMIT_INVALID = 1 << 26
+    ROPE_OFFSET_INVALID = 1 << 27
+    TRACKING = 1 << 28
+    TABLES_INVALID = 1 << 29
 
 
 _MEANINGS: dict[Status, str] = {
@@ -46,6 +60,20 @@ _MEANINGS: dict[Status, str] = {
     Status.ROPE_JUMP: "the rope length is farther off than the hoist could move: the last one holds",
     Status.ROPE_FROZEN: "the hoist moves and the rope length does not: one of them is wrong",
     Status.HOIST_SPEED_INVALID: "the hoist speed is not finite and counts as 0",
+    Status.STEPPING: "steps run: the row is locked and velocity commands do nothing",
+    Status.STEP_REFUSED: "a step was pressed and does not count: not at rest, a command, a stop, or too many",
+    Status.STEP_SIZE_INVALID: "a step was pressed with a size that is not 1 to 3: refused",
+    Status.COMMAND_LOCKED: "a command does nothing until it has been 0",
+    Status.STOP_SWITCH: "a stop switch is made: commands and steps towards it count as 0",
+    Status.SLOW_SWITCH: "a slow switch is made: the command towards it is limited to the slow speed",
+    Status.WAY_LIMITS: "the way left to the end of travel limits the speed",
+    Status.WAY_TOO_SHORT: "the way left to the end of travel is too short to stop in by the ramp",
+    Status.DISTANCE_INVALID: "a distance is not valid or not finite: the last one less the way since holds",
+    Status.DRIVE_NOT_READY: "the drive is not ready: the reference is 0",
+    Status.SPEED_LIMIT_INVALID: "the speed limit is not from 0 to the maximum and was clamped",
+    Status.ROPE_OFFSET_INVALID: "the rope offset is out of its range and was clamped, or not finite: 0",
+    Status.TRACKING: "the drive does not follow the reference",
+    Status.TABLES_INVALID: "the tables of the block are not those of its design: the reference stays 0",
 }
 
 ROPE_BITS = (
@@ -57,6 +85,24 @@ ROPE_BITS = (
 )
 """Bits that only a block with a measured rope has."""
 
+OPTIONAL_BITS = (
+    Status.STEPPING
+    | Status.STEP_REFUSED
+    | Status.STEP_SIZE_INVALID
+    | Status.COMMAND_LOCKED
+    | Status.STOP_SWITCH
+    | Status.SLOW_SWITCH
+    | Status.WAY_LIMITS
+    | Status.WAY_TOO_SHORT
+    | Status.DISTANCE_INVALID
+    | Status.DRIVE_NOT_READY
+    | Status.SPEED_LIMIT_INVALID
+    | Status.ROPE_OFFSET_INVALID
+    | Status.TRACKING
+    | Status.TABLES_INVALID
+)
+"""Bits that only a block with the function of their name has."""
+
 ERROR_BITS = (
     Status.COMMAND_INVALID
     | Status.SELECTOR_INVALID
@@ -64,6 +110,13 @@ ERROR_BITS = (
     | Status.ROPE_JUMP
     | Status.ROPE_FROZEN
     | Status.HOIST_SPEED_INVALID
+    | Status.STEP_SIZE_INVALID
+    | Status.WAY_TOO_SHORT
+    | Status.DISTANCE_INVALID
+    | Status.SPEED_LIMIT_INVALID
+    | Status.ROPE_OFFSET_INVALID
+    | Status.TRACKING
+    | Status.TABLES_INVALID
 )
 """Bits that also raise the `error` output: an input that cannot be right."""
 
