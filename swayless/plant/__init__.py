@@ -12,12 +12,16 @@ from swayless.plant.pendulum import (
     pendulum_mode,
     pendulum_rope_length_m,
 )
+from swayless.plant.ropes import DrivenRopes, FreeRopes, Ropes
 from swayless.plant.servo_drive import ServoDrive, servo_drive_mode, servo_drive_modes
 
 __all__ = [
     "Band",
+    "DrivenRopes",
+    "FreeRopes",
     "Mode",
     "Participation",
+    "Ropes",
     "STANDARD_GRAVITY_M_S2",
     "ServoDrive",
     "double_pendulum_modes",

@@ -8,9 +8,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from swayless.errors import PlantError
 from swayless.plant.mode import Mode
-from swayless.plant.pendulum import pendulum_mode
+from swayless.plant.pendulum import STANDARD_GRAVITY_M_S2
+
+_LEAST_TURN = 1e-7
+"""Imaginary part, of a pole's size, below which it is a real double pole and rounding."""
 
 
 @dataclass(frozen=True)
@@ -123,25 +129,94 @@ def servo_drive_modes(
     >>> [round(mode.damping_ratio, 4) for mode in servo_drive_modes(drive, 4.0)]
     [0.0588]
     """
-    import numpy as np
+    poles_rad_s = servo_drive_poles(drive, rope_length_m, damping_ratio)
+    moduli, ratios = pole_figures(poles_rad_s[np.isfinite(poles_rad_s)])
+    return tuple(
+        Mode(modulus / (2.0 * math.pi), ratio)
+        for modulus, ratio in zip(moduli.tolist(), ratios.tolist(), strict=True)
+    )
 
-    pendulum = pendulum_mode(rope_length_m, damping_ratio)
-    w_rad_s = pendulum.angular_frequency_rad_s
-    trolley_kg = drive.trolley_mass_kg
+
+def servo_drive_poles(
+    drive: ServoDrive, rope_length_m: ArrayLike, damping_ratio: float = 0.0
+) -> NDArray[np.complex128]:
+    """Find the upper half of every vibration's conjugate pair of poles, on many ropes at once.
+
+    Parameters
+    ----------
+    drive, damping_ratio
+        As for `servo_drive_modes`.
+    rope_length_m : array_like, shape (...)
+        > 0.
+
+    Returns
+    -------
+    ndarray of complex, shape (..., 2)
+        In rad/s, the least damped first; nan where there is no such vibration.
+
+    Raises
+    ------
+    PlantError
+        If a value is out of range.
+
+    Examples
+    --------
+    >>> drive = ServoDrive.from_lag(2000.0, 6000.0, 0.1)
+    >>> servo_drive_poles(drive, [4.0, 8.0])[:, 0].round(3)
+    array([-0.092+1.567j, -0.046+1.107j])
+    """
+    lengths_m = np.asarray(rope_length_m, dtype=np.float64)
+    good = np.isfinite(lengths_m) & (lengths_m > 0.0)
+    if not good.all():
+        raise PlantError(f"rope_length_m = {float(lengths_m[~good].flat[0])!r}: must be finite and > 0")
+    ratio = Mode(1.0, damping_ratio).damping_ratio
+    w_rad_s = np.sqrt(STANDARD_GRAVITY_M_S2 / lengths_m)
     # In s / w and per trolley mass, so that no coefficient is far from 1 that need not be.
-    loop = [
-        1.0,
-        drive.gain_n_s_m / (trolley_kg * w_rad_s),
-        drive.integral_gain_n_m / (trolley_kg * w_rad_s**2),
-    ]
-    swing = [1.0, 2.0 * damping_ratio, 1.0]
-    pull = drive.load_mass_kg / trolley_kg * np.array([2.0 * damping_ratio, 1.0, 0.0, 0.0])
-    roots = np.roots(np.polyadd(np.polymul(loop, swing), pull))
-    pairs = roots[roots.imag > 0.0]
+    load = drive.load_mass_kg / drive.trolley_mass_kg
+    gain = drive.gain_n_s_m / (drive.trolley_mass_kg * w_rad_s)
+    integral = drive.integral_gain_n_m / (drive.trolley_mass_kg * w_rad_s**2)
+    swing = 2.0 * ratio
+    below = np.stack(
+        np.broadcast_arrays(
+            gain + swing * (1.0 + load),
+            integral + swing * gain + 1.0 + load,
+            swing * integral + gain,
+            integral,
+        ),
+        axis=-1,
+    )
+    roots = _quartic_roots(below)
+    vibrates = roots.imag > _LEAST_TURN * abs(roots)
     # Rounding may leave an undamped pair on the wrong side of the imaginary axis.
-    moduli, ratios = abs(pairs), np.maximum(-pairs.real / abs(pairs), 0.0)
-    order = np.argsort(ratios)
-    return tuple(Mode(float(moduli[i]) * pendulum.frequency_hz, float(ratios[i])) for i in order)
+    settled = np.minimum(roots.real, 0.0) + 1j * roots.imag
+    ratios = np.where(vibrates, pole_figures(settled)[1], np.inf)
+    first = np.argsort(ratios, axis=-1, kind="stable")[..., :2]
+    poles = np.where(vibrates, settled, np.nan) * w_rad_s[..., np.newaxis]
+    return np.asarray(np.take_along_axis(poles, first, axis=-1))
+
+
+def _quartic_roots(below: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Find the roots of s^4 + below[..., 0] s^3 + ... + below[..., 3], polished by Newton's method."""
+    companion = np.zeros((*below.shape, 4))
+    companion[..., [1, 2, 3], [0, 1, 2]] = 1.0
+    companion[..., 0, :] = -below
+    roots = np.linalg.eigvals(companion).astype(np.complex128)
+    one = np.ones((*below.shape[:-1], 1))
+    powers = np.concatenate([one, below], axis=-1)[..., np.newaxis, :]
+    for _ in range(2):
+        s = roots[..., np.newaxis]
+        value = (powers * s ** np.arange(4, -1, -1)).sum(axis=-1)
+        slope = (powers[..., :-1] * np.arange(4, 0, -1) * s ** np.arange(3, -1, -1)).sum(axis=-1)
+        roots = roots - np.divide(value, slope, out=np.zeros_like(value), where=slope != 0.0)
+    return roots
+
+
+def pole_figures(poles_rad_s: NDArray[np.complex128]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Give the undamped angular frequency of poles and their damping ratio: |s| and -Re s / |s|."""
+    moduli = np.asarray(abs(poles_rad_s), dtype=np.float64)
+    ratios = np.zeros_like(moduli)
+    np.divide(-poles_rad_s.real, moduli, out=ratios, where=moduli != 0.0)
+    return moduli, ratios
 
 
 def servo_drive_mode(drive: ServoDrive, rope_length_m: float, damping_ratio: float = 0.0) -> Mode:
