@@ -6,11 +6,12 @@ operations is the law: the generated C and Structured Text follow it to the last
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.phase_filter import FloatPhaseFilter, PhaseFilter
 from swayless.controller.phase_filter_int32 import IntegerPhaseFilter
+from swayless.controller.pins import ShaperInput, ShaperOutput
 from swayless.controller.ramp import Glider, on_grid, ramped
 from swayless.controller.rope import Rope
 from swayless.controller.settings import ShaperSettings
@@ -19,6 +20,8 @@ from swayless.controller.spacing_laws import spaced_filter
 from swayless.controller.status import ERROR_BITS, Status
 from swayless.controller.tap_filter import TapFilter, tap_filter
 
+__all__ = ["CommandShaper", "ShaperInput", "ShaperOutput", "filter_of"]
+
 # Plain integers: the flag type is an order of magnitude slower, and this runs millions of times.
 _DISABLED, _UNSHAPED, _ROW_WAITS = int(Status.DISABLED), int(Status.UNSHAPED), int(Status.ROW_WAITS)
 _COMMAND_WAITS, _COMMAND_CLAMPED = int(Status.COMMAND_WAITS), int(Status.COMMAND_CLAMPED)
@@ -26,75 +29,6 @@ _COMMAND_INVALID, _SELECTOR_INVALID = int(Status.COMMAND_INVALID), int(Status.SE
 _QUICK_STOP, _EMERGENCY_STOP = int(Status.QUICK_STOP), int(Status.EMERGENCY_STOP)
 _BELOW_MINIMUM, _INCHING = int(Status.BELOW_MINIMUM), int(Status.INCHING)
 _ERRORS = int(ERROR_BITS)
-
-
-class ShaperInput(NamedTuple):
-    """Inputs of one tick.
-
-    Parameters
-    ----------
-    command : float or int
-        Wanted speed, in the units of the drive. Clamped to the maximum; non-finite counts as 0.
-    selector : int
-        Row: 0 unshaped, 1 to n.
-    enable : bool
-        False wants row 0.
-    quick_stop, emergency_stop : bool
-        Stop on the quick-stop ramp, unshaped; reference 0 at once.
-    rope_length, hoist_speed : float or int
-        The measured quantity (`measured`) and its change: rope length in m and m/s, positive when the load
-        sinks, or position of an arm in m or rad; in int32 thousandths. Read by blocks that measure one only.
-    rope_length_valid : bool
-        False: the measured quantity is not to be believed.
-    """
-
-    command: Any = 0
-    selector: int = 1
-    enable: bool = True
-    quick_stop: bool = False
-    emergency_stop: bool = False
-    rope_length: Any = 0
-    hoist_speed: Any = 0
-    rope_length_valid: bool = True
-
-
-class ShaperOutput(NamedTuple):
-    """Outputs of one tick; the fields of the generated block.
-
-    Parameters
-    ----------
-    reference : float or int
-        Speed for the drive, in its units.
-    stop_distance : float or int
-        Signed distance still to be travelled if the command were 0 from the next tick on: m, in int32 mm.
-    stop_time_s : float or int
-        Time until the reference is 0 then, in int32 rounded up to whole seconds.
-    stop_time_ticks : int
-        The same, in ticks; in int32 the last references may round to 0 before.
-    residual_bound : float or int
-        Residual vibration promised by the row in use: a ratio, in int32 millionths.
-    row : int
-        Row in use.
-    settled : bool
-        Nothing is pending: the reference equals the command and a row may change.
-    active : bool
-        The command is being shaped.
-    error : bool
-        An input cannot be right; the status says which.
-    status : int
-        The status word, bits as in :class:`~swayless.controller.status.Status`.
-    """
-
-    reference: Any
-    stop_distance: Any
-    stop_time_s: Any
-    stop_time_ticks: int
-    residual_bound: Any
-    row: int
-    settled: bool
-    active: bool
-    error: bool
-    status: int
 
 
 class CommandShaper:

@@ -148,9 +148,13 @@ def command_limits(
     >>> command_limits(SpeedLimits(0.5, 0.5), tick_s=0.01, number=number_type("float")).acceleration_step
     np.float32(0.0050001144)
     """
-    max_command = _command("max_speed", speeds.max_speed_m_s, speeds, number)
+
+    def in_units(name: str, value_m_s: float) -> Any:
+        return command_units(name, value_m_s, speeds.units_per_m_s, number)
+
+    max_command = in_units("max_speed", speeds.max_speed_m_s)
     grid = RampGrid(max_command, number)
-    inching = _command("inching_speed", speeds.inching_speed_m_s, speeds, number)
+    inching = in_units("inching_speed", speeds.inching_speed_m_s)
     if on_grid:
         max_command = grid.floor(max_command)
     steps = [
@@ -167,17 +171,40 @@ def command_limits(
         deceleration_step=steps[1],
         quick_stop_step=steps[2],
         ramp_anchor=grid.anchor,
-        minimum_command=_command("minimum_speed", speeds.minimum_speed_m_s, speeds, number),
+        minimum_command=in_units("minimum_speed", speeds.minimum_speed_m_s),
         inching_command=grid.floor(inching) if on_grid else inching,
-        command_resolution=_command("command_resolution", speeds.command_resolution_m_s, speeds, number),
+        command_resolution=in_units("command_resolution", speeds.command_resolution_m_s),
         units=speeds.units,
         units_per_m_s=speeds.units_per_m_s,
     )
 
 
-def _command(name: str, value_m_s: float, speeds: SpeedLimits, number: NumberType) -> Any:
-    """Bring a speed into command units; in int32 rounded down."""
-    exact = as_written(value_m_s) * as_written(speeds.units_per_m_s)
+def command_units(name: str, value_m_s: float, units_per_m_s: float, number: NumberType) -> Any:
+    """Bring a speed into command units; in int32 rounded down.
+
+    Parameters
+    ----------
+    name : str
+        What a message calls it.
+    value_m_s : float
+        Finite, >= 0.
+    units_per_m_s : float
+        How many command units make 1 m/s.
+    number : NumberType
+        Target type.
+
+    Raises
+    ------
+    ControllerError
+        If the type cannot hold it.
+
+    Examples
+    --------
+    >>> from swayless.controller.number import number_type
+    >>> command_units("max_speed", 0.35, 1000.0, number_type("int32"))
+    350
+    """
+    exact = as_written(value_m_s) * as_written(units_per_m_s)
     return _counts(name, value_m_s, exact) if number.is_integer else _real(name, value_m_s, exact, number)
 
 

@@ -7,8 +7,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from swayless.controller.contactor import check_contactor
 from swayless.controller.limits import CommandLimits
 from swayless.controller.number import NumberType
+from swayless.controller.operator_settings import NO_OPTIONS, OperatorSettings
 from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.phase_taps import PhaseTaps
 from swayless.controller.rope import RopeSettings
@@ -62,21 +64,29 @@ class ShaperSettings:
         Ramps and maxima, in the bank's number type.
     rope : RopeSettings or None
         What the block knows of a measured rope; the phase clock needs it.
+    operator : OperatorSettings
+        Steps, switches and whatever else is there only where asked for; none of it unless given.
 
     Raises
     ------
     ControllerError
-        If sums of products could leave 64 bits (int32 only), or the phase clock has no rope.
+        If sums of products could leave 64 bits (int32 only), the phase clock has no rope, or the rows or
+        ramps do not suit a contactor drive.
     """
 
     bank: Bank
     limits: CommandLimits
     rope: RopeSettings | None = None
+    operator: OperatorSettings = NO_OPTIONS
 
     def __post_init__(self) -> None:
         follows = self.clock is not None or self.bank.by_rope is not None or self.is_spaced
         if self.rope is None and follows:
             raise ControllerError("taps that follow the rope, and rows chosen by it, need a measured rope")
+        if self.rope is None and self.operator.rope_offset is not None:
+            raise ControllerError("rope_offset_m: needs a measured rope")
+        if self.operator.contactor_commands:
+            check_contactor(self.operator, self.bank, self.limits)
         if self.number.is_integer and self.clock is None:
             peak = max(sum(abs(a) for a in table.amplitudes) for table in self.row_tables)
             if peak * self.limits.max_command >= (1 << 62) - (
@@ -126,7 +136,8 @@ class ShaperSettings:
     def status_bits(self) -> tuple[Status, ...]:
         """Bits of the status word that the block can set."""
         absent = Status(0) if self.rope is not None else ROPE_BITS
-        return tuple(bit for bit in Status if not bit & (absent | OPTIONAL_BITS))
+        absent |= OPTIONAL_BITS & ~self.operator.status_bits
+        return tuple(bit for bit in Status if not bit & absent)
 
     @cached_property
     def row_tables(self) -> tuple[RowTable, ...]:
