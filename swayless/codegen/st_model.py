@@ -9,13 +9,18 @@ from swayless.codegen.features import Features, features_of
 from swayless.codegen.interface import Pin, input_pins, output_pins
 from swayless.codegen.names import check_st_names
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
+from swayless.codegen.st_parts import BlockLaw, law_of
 from swayless.codegen.st_phase import most_cells_a_tick
+from swayless.codegen.st_rope import st_said
 from swayless.codegen.st_scratch import scratch_of
+from swayless.codegen.st_spacing import strides
 from swayless.codegen.st_state import state_of
 from swayless.codegen.st_tables import StTables
-from swayless.codegen.st_types import Constant, StTypes, Table, Variable
+from swayless.codegen.st_types import Constant, StTypes, Table, Variable, bytes_of
+from swayless.controller.measured import ROPE
+from swayless.controller.original_filter import MOST_RUNS
 from swayless.controller.settings import ShaperSettings
-from swayless.controller.status import explain
+from swayless.controller.spacing_filter import spacing_of
 
 
 @dataclass(frozen=True)
@@ -67,6 +72,11 @@ class StModel:
         return features_of(self.settings)
 
     @property
+    def st_law(self) -> BlockLaw:
+        """What a tap waits for."""
+        return law_of(self.settings)
+
+    @property
     def row_count(self) -> int:
         """Rows besides row 0."""
         return len(self.settings.bank.rows)
@@ -96,6 +106,26 @@ class StModel:
         return most_cells_a_tick(self.settings.clock)
 
     @property
+    def st_last_stride(self) -> int:
+        """Last step of the look-up of the spacing; original and modified law only."""
+        return len(strides(spacing_of(self.settings))) - 1
+
+    def st_said(self, text: str) -> str:
+        """Say of the measured quantity what a template says of a rope."""
+        assert self.settings.rope is not None  # noqa: S101 - only blocks that measure one ask
+        return st_said(self.settings.rope.measured, text)
+
+    @property
+    def st_position(self) -> str:
+        """Variable that the spacing is looked up by."""
+        return self.st_said("RopeNow")
+
+    @property
+    def st_most_runs(self) -> int:
+        """Runs are numbered up to here; original law only."""
+        return MOST_RUNS
+
+    @property
     def st_bits(self) -> dict[str, int]:
         """Values of the status bits."""
         return {bit.name or "": bit.value for bit in self.settings.status_bits}
@@ -103,20 +133,33 @@ class StModel:
     @cached_property
     def provenance(self) -> list[str]:
         """Head of the file."""
+        measured = ROPE if self.settings.rope is None else self.settings.rope.measured
         facts = [
             "Call the block once per tick, in a task of exactly that cycle; declare one instance per axis.",
             f"Work per call: at most {self._work}, no functions but ABS and TRUNC.",
+            *self._memory,
             "",
             "Status is the sum of:",
-            *(f"  {bit.value} {explain(bit)}" for bit in self.settings.status_bits),
+            *(f"  {bit.value} {measured.explain(bit)}" for bit in self.settings.status_bits),
         ]
         return header_lines(self.settings, self.origin, facts)
 
     @property
     def _work(self) -> str:
+        if self.settings.is_spaced:
+            return f"{self.most_taps} taps, and a look-up of {self.st_last_stride + 1} steps; no division"
         if self.settings.clock is None:
             return f"{self.most_taps} taps; no division"
         return f"{self.most_taps} taps of {self.st_most_cells} cells of the ring each; three divisions"
+
+    @property
+    def _memory(self) -> list[str]:
+        """What a block that keeps several rings takes."""
+        if not self.settings.is_spaced:
+            return []
+        tables = sum(table.bytes for table in self.st_tables)
+        state = sum(bytes_of(each.st_type) for each in (*self.st_state, *self.st_scratch))
+        return [f"Memory: {state} bytes of variables for each instance, {tables} of tables."]
 
     @property
     def inputs(self) -> list[Variable]:
@@ -149,9 +192,9 @@ class StModel:
     @cached_property
     def st_state(self) -> list[Variable]:
         """What lives from call to call."""
-        return state_of(self.settings, self.types, self.features)
+        return state_of(self.settings, self.types)
 
     @cached_property
     def st_scratch(self) -> list[Variable]:
         """What a call computes on its way."""
-        return scratch_of(self.settings, self.types, self.features)
+        return scratch_of(self.settings, self.types)

@@ -1,4 +1,4 @@
-"""Constants and tables of a measured rope and the phase clock in Structured Text. Not for: their law."""
+"""Constants and tables of the phase clock in Structured Text. Not for: their law."""
 
 from __future__ import annotations
 
@@ -6,34 +6,7 @@ from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, st
 from swayless.controller import hoist
 from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.phase_filter import last_cell
-from swayless.controller.rope import MOST_HELD_TICKS
 from swayless.controller.settings import ShaperSettings
-
-
-def rope_constants(settings: ShaperSettings, types: StTypes) -> list[Constant]:
-    """List what the block knows of its rope; nothing where it is not measured.
-
-    Parameters
-    ----------
-    settings : ShaperSettings
-        The block.
-    types : StTypes
-        Its types.
-    """
-    rope = settings.rope
-    if rope is None:
-        return []
-    reals: list[RealConstant] = [
-        ("ShortestRope", rope.shortest, "[m] rope_length"),
-        ("LongestRope", rope.longest, "[m] rope_length"),
-        ("FastestHoist", rope.hoist_speed, "[m/s] hoist_speed"),
-        ("RopeJump", rope.jump, "[m] difference of two readings that is always taken"),
-        ("RopeWayPerTick", rope.way_per_tick, "[m] farthest that the rope moves in a tick"),
-    ]
-    held = Constant(
-        "MostHeldTicks", "DINT", str(MOST_HELD_TICKS), "[ticks] a held length is counted up to here"
-    )
-    return [*types.constants(reals), held]
 
 
 def phase_constants(settings: ShaperSettings, types: StTypes) -> list[Constant]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from swayless.codegen.features import Features
-from swayless.codegen.st_types import StTypes, Variable, parts_in_use
+from swayless.codegen.st_parts import parts_in_use
+from swayless.codegen.st_rope import of_measured
+from swayless.codegen.st_types import StTypes, Variable
 from swayless.controller.settings import ShaperSettings
 
 SCRATCH = (
@@ -11,9 +12,9 @@ SCRATCH = (
     ("real", "Goal", "command that the row in use lets pass", "all"),
     ("real", "Before", "ramped command of the last call", "all"),
     ("real", "Reach", "command or reference one tick on", "all"),
-    ("real", "Lowest", "least that the reference can be but for rounding", "ticks"),
-    ("real", "Highest", "most that the reference can be but for rounding", "ticks"),
-    ("real", "LapSum", "part of the reference from this lap", "ticks"),
+    ("real", "Lowest", "least that the reference can be but for rounding", "fixed"),
+    ("real", "Highest", "most that the reference can be but for rounding", "fixed"),
+    ("real", "LapSum", "part of the reference from this lap", "fixed"),
     ("real", "Start", "command from which the stop ramp starts", "all"),
     ("real", "RampStep", "step of a ramp", "all"),
     ("real", "StepsPerUnit", "1 / RampStep", "all"),
@@ -48,6 +49,19 @@ SCRATCH = (
     ("real", "RopeReach", "[m] farthest that the rope can have moved since the last reading", "rope"),
     ("bool", "RopeTaken", "the reading can be true", "rope"),
     ("bool", "AtRest", "nothing is pending, so that every rope length is taken", "rope"),
+    ("word", "Piece", "piece of the table of spacings", "spacing"),
+    ("real", "CommandSum", "sum of the commands of this lap", "spacing"),
+    ("real", "DelaySum", "sum of the commands that a tap has still to release", "spacing"),
+    ("word", "LagTicks", "delay of the last tap while the spacing stays", "spacing"),
+    ("bool", "Resting", "nothing is pending", "spacing"),
+    ("word", "SpacingBefore", "[ticks] spacing of the last call", "original"),
+    ("bool", "Disturbed", "a new spacing disturbs a steady command", "original"),
+    ("real", "Part", "part of a command that a tap releases", "original"),
+    ("word", "Cell", "cell of the call in which it does", "original"),
+    ("word", "SpacingThen", "[ticks] spacing of a past command", "modified"),
+    ("word", "WantedDelay", "[ticks] what the command that a tap read by its delay wants", "modified"),
+    ("word", "AgreedDelay", "[ticks] what the command of that delay wants", "modified"),
+    ("real", "PastCommand", "command that a tap releases", "modified"),
     ("real", "TablePlace", "place of the rope length in the table", "phase"),
     ("word", "TableCell", "its cell", "phase"),
     ("word", "ElapsedQuanta", "quanta of the last tick", "phase"),
@@ -89,7 +103,7 @@ SCRATCH = (
 """Kind, name, comment, and the part of the law that needs each."""
 
 
-def scratch_of(settings: ShaperSettings, types: StTypes, features: Features) -> list[Variable]:
+def scratch_of(settings: ShaperSettings, types: StTypes) -> list[Variable]:
     """List what a call computes on its way.
 
     Parameters
@@ -98,11 +112,10 @@ def scratch_of(settings: ShaperSettings, types: StTypes, features: Features) -> 
         The block.
     types : StTypes
         Its types.
-    features : Features
-        Parts of the law in use.
     """
-    used = parts_in_use(features)
-    scalars = [Variable(name, types.type_of(kind), doc) for kind, name, doc, part in SCRATCH if part in used]
+    used = parts_in_use(settings)
+    chosen = [Variable(name, types.type_of(kind), doc) for kind, name, doc, part in SCRATCH if part in used]
+    scalars = of_measured(settings, chosen)
     if settings.clock is None:
         return scalars
     most_taps = max(len(table.lags) for table in settings.row_tables)

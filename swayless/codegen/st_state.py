@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from swayless.codegen.features import Features
-from swayless.codegen.st_types import StTypes, Variable, parts_in_use
+from swayless.codegen.st_parts import parts_in_use
+from swayless.codegen.st_rope import of_measured
+from swayless.codegen.st_spacing import spacing_arrays, spacing_variables
+from swayless.codegen.st_types import StTypes, Variable
 from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.phase_filter import last_cell
 from swayless.controller.settings import ShaperSettings
@@ -14,8 +16,8 @@ STATE = (
     ("real", "Base", "command of the last rest", ZERO, "all"),
     ("real", "Target", "target of the ramp", ZERO, "all"),
     ("real", "Ramped", "ramped command", ZERO, "all"),
-    ("real", "Pending", "sum of the references still to come", ZERO, "ticks"),
-    ("real", "Fresh", "the same from the commands of this lap alone", ZERO, "ticks"),
+    ("real", "Pending", "sum of the references still to come", ZERO, "fixed"),
+    ("real", "Fresh", "the same from the commands of this lap alone", ZERO, "fixed"),
     ("word", "Head", "cell of the newest command", "LastTicks", "ticks"),
     ("word", "StillTicks", "ticks without change, up to the longest delay", "LastTicks", "ticks"),
     ("word", "Head", "cell of the newest change", "LastCell", "phase"),
@@ -33,6 +35,11 @@ STATE = (
     ("word", "HeldTicks", "ticks for which it has been held", "0", "rope"),
     ("real", "UnmovedWay", "[m] way that the hoist says it went without a change of it", ZERO, "rope"),
     ("row", "RopeRow", "row of the rope", "1", "rope rows"),
+    ("real", "LapSum", "sum of the commands of the last full lap", ZERO, "spacing"),
+    ("word", "StartSpacing", "[ticks] spacing until the last rest ended", "0", "spacing"),
+    ("word", "PartCell", "cell of the parts of this call", "0", "original"),
+    ("word", "Age", "calls since the last rest, up to the longest delay", "0", "original"),
+    ("word", "RunNumber", "run since the last rest; never reset: older ones do not count", "", "original"),
     ("bool", "Running", "changes are under way", FALSE, "phase"),
     ("real", "Shaped", "command that the taps have taken in", ZERO, "phase"),
     ("real", "Level", "sum of all releases: the reference", ZERO, "phase"),
@@ -48,7 +55,7 @@ STATE = (
 """Kind, name, comment, value after power-on, and the part of the law that needs each."""
 
 
-def state_of(settings: ShaperSettings, types: StTypes, features: Features) -> list[Variable]:
+def state_of(settings: ShaperSettings, types: StTypes) -> list[Variable]:
     """List what lives from call to call.
 
     Parameters
@@ -57,19 +64,21 @@ def state_of(settings: ShaperSettings, types: StTypes, features: Features) -> li
         The block.
     types : StTypes
         Its types.
-    features : Features
-        Parts of the law in use.
     """
-    used = parts_in_use(features)
-    scalars = [
+    used = parts_in_use(settings)
+    chosen = [
         Variable(name, types.type_of(kind), doc, st_reset=reset)
         for kind, name, doc, reset, part in STATE
         if part in used
     ]
-    if settings.clock is None:
-        ring = types.array_of("real", settings.longest_delay_ticks)
-        return [Variable("Ring", ring, "last ramped commands"), *scalars]
-    return [*_phase_arrays(settings, types), *scalars, *_phase_reading(settings.clock, types)]
+    scalars = of_measured(settings, chosen)
+    if settings.clock is not None:
+        return [*_phase_arrays(settings, types), *scalars, *_phase_reading(settings.clock, types)]
+    ring = types.array_of("real", settings.longest_delay_ticks)
+    commands = [Variable("Ring", ring, "last ramped commands")]
+    if not settings.is_spaced:
+        return [*commands, *scalars]
+    return [*commands, *spacing_arrays(settings, types), *scalars, *spacing_variables(settings)]
 
 
 def _phase_arrays(settings: ShaperSettings, types: StTypes) -> list[Variable]:

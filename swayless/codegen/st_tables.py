@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from swayless.codegen.features import Features
-from swayless.codegen.st_phase import phase_constants, phase_tables, rope_constants
-from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, parts_in_use, st_table
+from swayless.codegen.st_parts import parts_in_use
+from swayless.codegen.st_phase import phase_constants, phase_tables
+from swayless.codegen.st_rope import rope_constants
+from swayless.codegen.st_spacing import spacing_constants, spacing_tables
+from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, st_table
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.ramp import Glider
 from swayless.controller.settings import ShaperSettings
@@ -26,7 +29,7 @@ class StTables:
 
     def __init__(self, settings: ShaperSettings, types: StTypes, features: Features) -> None:
         self._settings, self._types, self._features = settings, types, features
-        self._used = parts_in_use(features)
+        self._used = parts_in_use(settings)
 
     @property
     def constants(self) -> list[Constant]:
@@ -42,6 +45,7 @@ class StTables:
             *whole,
             *types.constants(reals),
             *rope_constants(settings, types),
+            *spacing_constants(settings),
             *phase_constants(settings, types),
         ]
 
@@ -95,12 +99,12 @@ class StTables:
         tables = (
             ("FirstTaps", "row", [[str(first) for first in firsts]], "First tap of each row.", "all"),
             ("TapCounts", "row", [[str(len(r.amplitudes)) for r in rows]], "Taps of each row.", "all"),
-            ("DelayTicks", "word", lags, "[ticks] Delay of each tap, by row.", "ticks"),
+            ("DelayTicks", "word", lags, "[ticks] Delay of each tap, by row.", "fixed"),
             ("LagQuanta", "word", lags, "[quanta] Phase that each tap waits for, by row.", "phase"),
             ("Amplitudes", "real", amplitudes, AMPLITUDES, "all"),
             ("TailTicks", "word", tails, "[ticks] Longest delay of each row.", "ticks"),
             ("TailQuanta", "word", tails, "[quanta] Largest lag of each row.", "phase"),
-            ("MomentTicks", "real", moments, f"[ticks] Sum of amplitude times delay{OF_EACH_ROW}", "ticks"),
+            ("MomentTicks", "real", moments, f"[ticks] Sum of amplitude times delay{OF_EACH_ROW}", "fixed"),
             ("MomentQuanta", "real", moments, f"[quanta] Sum of amplitude times lag{OF_EACH_ROW}", "phase"),
             ("ResidualBounds", "real", bounds, "Tolerance of each row.", "all"),
             ("Waits", "bool", waits, WAITS, "waiting"),
@@ -112,7 +116,7 @@ class StTables:
             for name, kind, values, doc, part in tables
             if part in self._used
         ]
-        return [*made, *phase_tables(self._settings, types)]
+        return [*made, *spacing_tables(self._settings, types), *phase_tables(self._settings, types)]
 
 
 AMPLITUDES = "Amplitude of each tap, by row; each row sums to exactly 1."

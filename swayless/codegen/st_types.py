@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from swayless.codegen.features import Features
 from swayless.codegen.literals import st_literal
 from swayless.controller.number import NumberType
 from swayless.errors import CodegenError
@@ -17,6 +17,8 @@ VALUES_A_LINE = 6
 ST_REALS = {"double": "LREAL", "float": "REAL"}
 """Structured Text type of each number type."""
 
+ST_BYTES = {"BOOL": 1, "DINT": 4, "REAL": 4, "LREAL": 8}
+"""Memory of each type that a block uses."""
 
 RealConstant: TypeAlias = tuple[str, Any, str]
 """Name, value and comment of a constant of the number type."""
@@ -52,6 +54,11 @@ class Table:
     last: int
     st_lines: tuple[str, ...]
     doc: str
+
+    @property
+    def bytes(self) -> int:
+        """Memory that the table takes."""
+        return (self.last + 1) * ST_BYTES[self.st_type]
 
 
 class StTypes:
@@ -93,24 +100,21 @@ class StTypes:
         return f"ARRAY[0..{last}] OF {self.type_of(kind)}"
 
 
-def parts_in_use(features: Features) -> frozenset[str]:
-    """Name the parts of the law that a block uses; declarations say which part needs them.
+def bytes_of(st_type: str) -> int:
+    """Memory that a variable takes.
 
     Parameters
     ----------
-    features : Features
-        Parts of the law in use, as flags.
+    st_type : str
+        Elementary type, or array of one from index 0 on.
+
+    Examples
+    --------
+    >>> bytes_of("BOOL"), bytes_of("LREAL"), bytes_of("ARRAY[0..120] OF DINT")
+    (1, 8, 484)
     """
-    parts = {
-        "ticks": not features.has_phase_clock,
-        "phase": features.has_phase_clock,
-        "rope": features.has_rope,
-        "rope rows": features.has_rope_rows,
-        "resolution": features.has_resolution,
-        "inching": features.has_inching,
-        "waiting": features.has_waiting_rows,
-    }
-    return frozenset(["all", *(name for name, used in parts.items() if used)])
+    array = re.fullmatch(r"ARRAY\[0\.\.(\d+)\] OF (\w+)", st_type)
+    return ST_BYTES[st_type] if array is None else (int(array[1]) + 1) * ST_BYTES[array[2]]
 
 
 def st_table(name: str, st_type: str, rows: Sequence[Sequence[str]], doc: str) -> Table:
