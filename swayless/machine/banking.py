@@ -13,17 +13,19 @@ from itertools import pairwise
 from typing import TypeVar
 
 from swayless.design.robust import cover, cover_with
-from swayless.design.robust.bank import ContinuousRows, RowDesigner, TickRows
+from swayless.design.robust.bank import RowDesigner, TickRows
+from swayless.design.robust.driven_rows import DrivenTickRows
 from swayless.machine.bank_record import BankRecord
 from swayless.machine.bank_section import BankSection, unit_size
 from swayless.machine.plant_section import PlantSection
 from swayless.machine.robust_row import RobustRow
 from swayless.machine.row_design import RowDesign, robust_design
 from swayless.machine.stored_numbers import outward_12
-from swayless.plant import Band, pendulum_frequency_hz, pendulum_rope_length_m
+from swayless.plant import Band, DrivenRopes, FreeRopes, Ropes
 
 Made = TypeVar("Made")
 
+_PENDULUMS = FreeRopes()
 _LABEL_DECIMALS = 2
 _OVERLAP_DECIMALS = 9  # of m or Hz: what the last digits of an edge leave is no overlap
 
@@ -53,6 +55,7 @@ def design_bank(
     *,
     tick_s: float,
     contactor: bool,
+    ropes: DrivenRopes | None = None,
     on_row: Callable[[str], None] = lambda _: None,
 ) -> BankDesign:
     """Work out the rows of a bank.
@@ -67,6 +70,8 @@ def design_bank(
         Length of a tick.
     contactor : bool
         Whether the drive knows only 0 and full speed.
+    ropes : DrivenRopes or None
+        Ropes below a driven trolley: each row is then designed for the damping in its middle.
     on_row : callable
         Called with words for what is designed next.
 
@@ -75,19 +80,26 @@ def design_bank(
     DesignError
         If the range cannot be covered as asked.
     """
-    switching = Switching(plant.rope_length_m is not None, bank.hysteresis, bank.label_step_m)
-    rule, damping_ratio = bank.rule, plant.damping_ratio
-    if rule.amplitudes == "unity-magnitude" and not contactor:
-        between = ContinuousRows(rule.amplitudes, rule.impulses, damping_ratio)
+    known: Ropes = FreeRopes(plant.damping_ratio) if ropes is None else ropes
+    switching = Switching(plant.rope_length_m is not None, bank.hysteresis, bank.label_step_m, known)
+    ticked = _tick_rows(bank, plant, ropes, tick_s)
+    if bank.rule.amplitudes == "unity-magnitude" and not contactor:
+        between = ticked.ideal
         designs = [robust_design(made, tick_s) for made in _covered(bank, plant, between, switching, on_row)]
     else:
-        ticked = TickRows(tick_s, rule.amplitudes, rule.impulses, damping_ratio)
         designs = [robust_design(made, tick_s) for made in _covered(bank, plant, ticked, switching, on_row)]
     switches = [switching.place(design.promise.band.high_hz) for design in designs[:-1]]
     names = _names(bank, plant, switches)
     ropes_m = _ropes_m(plant, switching, switches)
     rows = tuple(map(partial(_row, bank), names, designs, ropes_m))
     return BankDesign(rows, tuple(designs), _record(bank, switching, switches, names, designs))
+
+
+def _tick_rows(bank: BankSection, plant: PlantSection, ropes: DrivenRopes | None, tick_s: float) -> TickRows:
+    rule, damping_ratio = bank.rule, plant.damping_ratio
+    if ropes is None:
+        return TickRows(tick_s, rule.amplitudes, rule.impulses, damping_ratio)
+    return DrivenTickRows(tick_s, rule.amplitudes, rule.impulses, damping_ratio, ropes=ropes)
 
 
 @dataclass(frozen=True)
@@ -105,6 +117,8 @@ class Switching:
         Least overlap, in m or Hz.
     step_m : float or None
         Places are whole multiples of it.
+    ropes : Ropes
+        Which rope has which frequency.
 
     Examples
     --------
@@ -116,12 +130,13 @@ class Switching:
     on_rope: bool
     hysteresis: float
     step_m: float | None
+    ropes: Ropes = _PENDULUMS
 
     def place(self, end_hz: float) -> float:
         """Where the knob is turned, of where a row ends: m of rope, or Hz; rounded towards the next row."""
         if not self.on_rope:
             return outward_12((end_hz - 0.5 * self.hysteresis, end_hz))[0]
-        shortest_m = pendulum_rope_length_m(end_hz) + 0.5 * self.hysteresis
+        shortest_m = self.ropes.rope_length_m(end_hz) + 0.5 * self.hysteresis
         if self.step_m is None:
             return outward_12((shortest_m, shortest_m))[1]
         return math.ceil(shortest_m / self.step_m) * self.step_m
@@ -129,7 +144,7 @@ class Switching:
     def next_start_hz(self, end_hz: float) -> float:
         """Where the next row starts, of where a row ends; a number of 12 digits, so that no gap is stored."""
         start = self.start(self.place(end_hz))
-        start_hz = pendulum_frequency_hz(start) if self.on_rope else start
+        start_hz = self.ropes.mode(start).frequency_hz if self.on_rope else start
         return outward_12((min(start_hz, end_hz), end_hz))[0]
 
     def start(self, place: float) -> float:
@@ -138,14 +153,14 @@ class Switching:
 
     def frequency_hz(self, place: float) -> float:
         """Frequency of a place."""
-        return pendulum_frequency_hz(place) if self.on_rope else place
+        return self.ropes.mode(place).frequency_hz if self.on_rope else place
 
     def overlap(self, lower: Band, upper: Band) -> float:
         """By how much two neighbours overlap, in m or Hz."""
         if not self.on_rope:
             shared = lower.high_hz - upper.low_hz
         else:
-            shared = pendulum_rope_length_m(upper.low_hz) - pendulum_rope_length_m(lower.high_hz)
+            shared = self.ropes.rope_length_m(upper.low_hz) - self.ropes.rope_length_m(lower.high_hz)
         return max(round(shared, _OVERLAP_DECIMALS), 0.0)
 
 
