@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from swayless.cli.console import at_most, interval, per_cent, print_line, print_table, rounded_down
 
 if TYPE_CHECKING:
-    from swayless.machine import DesignFile, GuaranteeRecord, PhaseTapsRecord, ShaperRecord, TapsRecord
+    from swayless.machine import AnyTapsRecord, DesignFile, GuaranteeRecord, ShaperRecord
 
 NEGATIVE_NOTE = (
     "a new command waits until the last one has come to rest, so a short jog is stretched: "
@@ -128,7 +128,7 @@ def _ropes(shaper: ShaperRecord, held: GuaranteeRecord) -> str:
     return f"{interval(*held.rope_length_m, digits=4 if shaper.amplitude_rule is None else 6)} m"
 
 
-def _facts(part: ShaperRecord | TapsRecord | PhaseTapsRecord, design: DesignFile) -> dict[str, str]:
+def _facts(part: ShaperRecord | AnyTapsRecord, design: DesignFile) -> dict[str, str]:
     held = part.guarantee
     facts = {
         "duration": f"{part.duration_s:.6g} s",

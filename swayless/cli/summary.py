@@ -14,7 +14,7 @@ from swayless.cli.design_summary import bands, damping_ratios, proofs
 
 if TYPE_CHECKING:
     from swayless.controller import ShaperOutput, ShaperSettings
-    from swayless.machine import DesignFile, PhaseTapsRecord, ShaperRecord, TapsRecord
+    from swayless.machine import AnyTapsRecord, DesignFile, ShaperRecord
 
 MM_PER_M = 1000.0
 """Stop distances of int32 blocks are in mm."""
@@ -143,7 +143,7 @@ def _on_rope(design: DesignFile) -> bool:
     return design.plant.kind in {"crane", "double_pendulum"}
 
 
-def _held(design: DesignFile, taps: TapsRecord | PhaseTapsRecord) -> tuple[float, float]:
+def _held(design: DesignFile, taps: AnyTapsRecord) -> tuple[float, float]:
     return taps.guarantee.rope_length_m if _on_rope(design) else taps.guarantee.frequency_hz
 
 
@@ -160,7 +160,7 @@ def _gaps(design: DesignFile) -> list[tuple[float, float]]:
     return uncovered([_held(design, _taps(shaper)) for shaper in design.shapers], whole)
 
 
-def _taps(shaper: ShaperRecord) -> TapsRecord | PhaseTapsRecord:
+def _taps(shaper: ShaperRecord) -> AnyTapsRecord:
     assert shaper.taps is not None  # noqa: S101 - a machine always has a tick
     return shaper.taps
 

@@ -9,6 +9,7 @@ from swayless.machine.comparison import same_design
 from swayless.machine.controller_section import LAWS, ControllerSection
 from swayless.machine.design_document import (
     SCHEMA,
+    AnyTapsRecord,
     DesignFile,
     DriveRecord,
     GuaranteeRecord,
@@ -16,6 +17,7 @@ from swayless.machine.design_document import (
     PhaseTapsRecord,
     PlantRecord,
     ShaperRecord,
+    SpacedTapsRecord,
     TapsRecord,
 )
 from swayless.machine.design_file import design_sha256, load_design, save_text
@@ -42,7 +44,9 @@ __all__ = [
     "ShaperRecord",
     "ModeRecord",
     "GuaranteeRecord",
+    "AnyTapsRecord",
     "PhaseTapsRecord",
+    "SpacedTapsRecord",
     "TapsRecord",
     "SCHEMA",
     "load_design",

@@ -14,7 +14,7 @@ from swayless.machine.drive_section import DriveSection
 from swayless.machine.problems import Table
 
 TICK = quantity("time", 1e-6, 1.0)
-LAWS = ("fixed", "phase")
+LAWS = ("fixed", "phase", "original", "modified")
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,9 @@ class ControllerSection:
         Time between two calls of the block, at least 1 us and at most 1 s.
     number : {"double", "float", "int32"}
         Number type of the generated code.
-    law : {"fixed", "phase"}
-        Controller law: the taps keep their delays in ticks, or in phases of the pendulum, which follow a
-        measured rope.
+    law : {"fixed", "phase", "original", "modified"}
+        Controller law: the taps keep their delays in ticks; in phases of the pendulum, which follow a
+        measured rope; or as multiples of a spacing, looked up each tick over a measured rope or position.
     """
 
     tick_s: float
@@ -45,6 +45,12 @@ def read_controller(table: Table) -> ControllerSection | None:
     if tick_s is None or number is None or law is None:
         return None
     return ControllerSection(tick_s, number, law)
+
+
+def law_of(table: Table) -> str | None:
+    """Give the law that the section asks for, whatever else is wrong in it; None for one that is unknown."""
+    law = table.raw.get("law", "fixed")
+    return law if isinstance(law, str) and law in LAWS else None
 
 
 def check_counts(table: Table, drive: DriveSection) -> None:

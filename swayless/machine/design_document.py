@@ -9,7 +9,7 @@ Not for: making a design; see `swayless.design` and `swayless.controller`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, TypeAlias
@@ -28,6 +28,7 @@ from swayless.machine.design_members import (
     FURTHER_BANDS,
     IMPULSES,
     LABEL,
+    MULTIPLES,
     NAME,
     NOT_NEGATIVE,
     ORDER,
@@ -41,8 +42,10 @@ from swayless.machine.design_members import (
     TOLERANCE,
     word,
 )
-from swayless.machine.record import Record, one, one_of, optional, several
+from swayless.machine.following_row import SPACED_LAWS
+from swayless.machine.record import Record, one, one_of, optional, several, where_needed
 from swayless.machine.robust_row import AMPLITUDE_RULES
+from swayless.machine.spacing_record import PositionRecord, SpacingRecord
 from swayless.machine.stored_numbers import nearest_12
 
 SCHEMA = "swayless.design/1"
@@ -78,12 +81,29 @@ class PlantRecord(Record):
     damping_ratio: Annotated[float, DAMPING]
     double_pendulum: Annotated[DoublePendulumRecord | None, optional(one(DoublePendulumRecord))]
     hoist_speed_m_s: Annotated[float | None, optional(POSITIVE)]
+    position: Annotated[PositionRecord | None, where_needed(one(PositionRecord))] = None
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
-        """Require sling and masses exactly for a double pendulum."""
+        """Require sling and masses exactly for a double pendulum, and positions of an arm only."""
+        if self.position is not None:
+            if self.kind != "arm":
+                yield "position", f'is not null, and kind = "{self.kind}"'
+            found = (min(self.position.frequency_hz), max(self.position.frequency_hz))
+            if self.frequency_hz != found:
+                yield "frequency_hz", f"is not the range of position.frequency_hz, {list(found)}"
         if (self.kind == "double_pendulum") != (self.double_pendulum is not None):
             found = "null" if self.double_pendulum is None else "not null"
             yield "double_pendulum", f'is {found}, and kind = "{self.kind}"'
+
+
+@dataclass(frozen=True)
+class SpeedLoopRecord(Record):
+    """Trolley, load, and the speed loop between them; the fields are those of `ServoDrive`."""
+
+    trolley_mass_kg: Annotated[float, POSITIVE]
+    load_mass_kg: Annotated[float, POSITIVE]
+    gain_n_s_m: Annotated[float, POSITIVE]
+    integral_time_s: Annotated[float | None, optional(POSITIVE)]
 
 
 @dataclass(frozen=True)
@@ -100,6 +120,7 @@ class DriveRecord(Record):
     inching_speed_m_s: Annotated[float, NOT_NEGATIVE]
     command_resolution_m_s: Annotated[float, NOT_NEGATIVE]
     contactor: Annotated[bool, FLAG]
+    speed_loop: Annotated[SpeedLoopRecord | None, where_needed(one(SpeedLoopRecord))] = None
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
         """Require the small speeds to be below the full speed, and no ramp for a contactor drive."""
@@ -177,6 +198,34 @@ class PhaseTapsRecord(Record):
 
 
 @dataclass(frozen=True)
+class SpacedTapsRecord(Record):
+    """The impulses at multiples of the spacing, which is what runs; times are those at the widest spacing."""
+
+    delays_spacings: Annotated[tuple[int, ...], MULTIPLES]
+    amplitudes: Annotated[Floats, TAP_AMPLITUDES]
+    duration_s: Annotated[float, NOT_NEGATIVE]
+    overtravel_s: Annotated[float, FINITE]
+    guarantee: Annotated[GuaranteeRecord, one(GuaranteeRecord)]
+
+    def disagreements(self) -> Iterator[tuple[str, str]]:
+        """Require one amplitude for each multiple."""
+        yield from _lengths("delays_spacings", self.delays_spacings, self.amplitudes)
+
+
+AnyTapsRecord: TypeAlias = TapsRecord | PhaseTapsRecord | SpacedTapsRecord
+"""Taps of any law."""
+
+_TAPS: dict[str, type[Record]] = {
+    "delays_ticks": TapsRecord,
+    "phases_rad": PhaseTapsRecord,
+    "delays_spacings": SpacedTapsRecord,
+}
+_DELAYS_OF_LAW: Mapping[str, str] = {"fixed": "delays_ticks", "phase": "phases_rad"} | dict.fromkeys(
+    SPACED_LAWS, "delays_spacings"
+)
+
+
+@dataclass(frozen=True)
 class ClockRecord(Record):
     """The table of the phase clock in the design's number type: quanta of a tick over the rope length."""
 
@@ -202,10 +251,7 @@ class ShaperRecord(Record):
     overtravel_s: Annotated[float, FINITE]
     peak_factor: Annotated[float, POSITIVE]
     guarantee: Annotated[GuaranteeRecord, one(GuaranteeRecord)]
-    taps: Annotated[
-        TapsRecord | PhaseTapsRecord | None,
-        optional(one_of({"delays_ticks": TapsRecord, "phases_rad": PhaseTapsRecord})),
-    ]
+    taps: Annotated[AnyTapsRecord | None, optional(one_of(_TAPS))]
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
         """Require one amplitude for each time, what follows from them, and the damping of the mode."""
@@ -249,19 +295,21 @@ class DesignFile(Record):
     shapers: Annotated[tuple[ShaperRecord, ...], several(one(ShaperRecord), at_least=1, at_most=MAX_SHAPERS)]
     bank: Annotated[BankRecord | None, optional(one(BankRecord))]
     clock: Annotated[ClockRecord | None, optional(one(ClockRecord))] = None
+    spacing: Annotated[SpacingRecord | None, where_needed(one(SpacingRecord))] = None
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
         """Require what no record sees by itself: between shapers, tick, drive and bank."""
         if self.bank is not None and len(self.bank.labels) != len(self.shapers):
             yield "bank.labels", f"has {len(self.bank.labels)} values, there are {len(self.shapers)} shapers"
         yield from self._phase_clock()
+        yield from self._spacing()
         if self.number == "int32" and self.drive.counts_per_m_s is None:
             yield "drive.counts_per_m_s", 'is null, and number = "int32" computes in counts'
         names = [shaper.name.lower() for shaper in self.shapers]
         for index, shaper in enumerate(self.shapers):
             if names[index] in names[:index]:
                 yield f"shapers[{index}].name", f"is also the name of shapers[{names.index(names[index])}]"
-            yield from _taps(f"shapers[{index}].taps", shaper.taps, self.tick_s)
+            yield from _taps(f"shapers[{index}].taps", shaper.taps, self._unit_s(shaper.taps))
             yield from _law(f"shapers[{index}].taps", shaper.taps, self.law)
             yield from _whole(f"shapers[{index}].taps", shaper.taps, contactor=self.drive.contactor)
 
@@ -280,27 +328,54 @@ class DesignFile(Record):
         elif self.clock is not None:
             yield "clock", f'must be null: law = "{self.law}"'
 
+    def _spacing(self) -> Iterator[tuple[str, str]]:
+        """Require what a spaced law needs exactly where it is the law."""
+        if self.law not in SPACED_LAWS:
+            if self.spacing is not None:
+                yield "spacing", f'must not stand there: law = "{self.law}"'
+            return
+        plant = self.plant
+        needs: dict[str, object] = {"spacing": self.spacing, "tick_s": self.tick_s}
+        if plant.position is not None:
+            needs["plant.position.speed_per_s"] = plant.position.speed_per_s
+        else:
+            needs["plant.rope_length_m"] = plant.rope_length_m
+            needs["plant.hoist_speed_m_s"] = plant.hoist_speed_m_s
+        for key, value in needs.items():
+            if value is None:
+                yield key, f'is null, and law = "{self.law}" needs it'
+        for index, shaper in enumerate(self.shapers):
+            if shaper.mode.damping_ratio != plant.damping_ratio:
+                key, own = f"shapers[{index}].mode.damping_ratio", shaper.mode.damping_ratio
+                yield (
+                    key,
+                    f"{own!r} is not plant.damping_ratio, {plant.damping_ratio!r}",
+                )
 
-def _law(key: str, taps: TapsRecord | PhaseTapsRecord | None, law: str) -> Iterator[tuple[str, str]]:
-    if taps is not None and (law == "phase") != isinstance(taps, PhaseTapsRecord):
-        wanted = "phases_rad" if law == "phase" else "delays_ticks"
+    def _unit_s(self, taps: AnyTapsRecord | None) -> float | None:
+        """Time that delays of taps are counted in: a tick, or the widest spacing."""
+        if isinstance(taps, SpacedTapsRecord) and self.spacing is not None and self.tick_s is not None:
+            return max(self.spacing.ticks) * self.tick_s
+        return self.tick_s
+
+
+def _law(key: str, taps: AnyTapsRecord | None, law: str) -> Iterator[tuple[str, str]]:
+    wanted = _DELAYS_OF_LAW[law]
+    if taps is not None and not isinstance(taps, _TAPS[wanted]):
         yield key, f'must have {wanted}: law = "{law}"'
 
 
-def _taps(
-    key: str, taps: TapsRecord | PhaseTapsRecord | None, tick_s: float | None
-) -> Iterator[tuple[str, str]]:
-    if (taps is None) != (tick_s is None):
+def _taps(key: str, taps: AnyTapsRecord | None, unit_s: float | None) -> Iterator[tuple[str, str]]:
+    if (taps is None) != (unit_s is None):
         there, null = ("tick_s", key) if taps is None else (key, "tick_s")
         yield key, f"{null} is null and {there} is not: both or neither"
-    elif isinstance(taps, TapsRecord) and tick_s is not None:
-        for figure, reason in _moments(taps, [delay * tick_s for delay in taps.delays_ticks]):
+    elif isinstance(taps, TapsRecord | SpacedTapsRecord) and unit_s is not None:
+        delays = taps.delays_ticks if isinstance(taps, TapsRecord) else taps.delays_spacings
+        for figure, reason in _moments(taps, [delay * unit_s for delay in delays]):
             yield f"{key}.{figure}", reason
 
 
-def _whole(
-    key: str, taps: TapsRecord | PhaseTapsRecord | None, *, contactor: bool
-) -> Iterator[tuple[str, str]]:
+def _whole(key: str, taps: AnyTapsRecord | None, *, contactor: bool) -> Iterator[tuple[str, str]]:
     """Require that a contactor drive is only ever asked for 0 or full speed."""
     if contactor and taps is not None and any(abs(amplitude) != 1.0 for amplitude in taps.amplitudes):
         yield f"{key}.amplitudes", "must be 1 and -1: a contactor drive gives 0 or full speed"
@@ -311,7 +386,9 @@ def _lengths(key: str, times: Sequence[float], amplitudes: Floats) -> Iterator[t
         yield "amplitudes", f"has {len(amplitudes)} values, {key} has {len(times)}"
 
 
-def _moments(impulses: ShaperRecord | TapsRecord, times_s: Sequence[float]) -> Iterator[tuple[str, str]]:
+def _moments(
+    impulses: ShaperRecord | TapsRecord | SpacedTapsRecord, times_s: Sequence[float]
+) -> Iterator[tuple[str, str]]:
     """Require the duration and the overtravel that follow from the impulses."""
     moments = [amplitude * time_s for amplitude, time_s in zip(impulses.amplitudes, times_s, strict=True)]
     last, total = nearest_12(times_s[-1]), nearest_12(sum(moments))

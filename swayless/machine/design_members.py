@@ -7,13 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from swayless.controller.spacing import MOST_SPACING_TICKS
 from swayless.design.families.closed_form import LARGEST_ORDER
 from swayless.machine.checks import choice, flag, integer, label, machine_name
 from swayless.machine.problems import RefusedError, plain
 from swayless.machine.record import Member, several
 from swayless.machine.stored_numbers import (
+    counting,
     inward_12,
     real,
+    rising,
     rising_from_zero,
     rising_pair,
     ruled,
@@ -23,6 +26,7 @@ from swayless.machine.stored_numbers import (
 
 MAX_IMPULSES = 4096
 MAX_BANDS = 8
+MAX_PLACES = 1 << 16
 MAX_TEXT_LENGTH = 255
 
 
@@ -60,6 +64,10 @@ TIMES = ruled(several(FINITE, at_least=1, at_most=MAX_IMPULSES), rising_from_zer
 AMPLITUDES = ruled(several(AMPLITUDE, at_least=1, at_most=MAX_IMPULSES), sums_to_one)
 DELAYS = ruled(several(Member(integer(0, 2**31 - 1)), at_least=1, at_most=MAX_IMPULSES), rising_from_zero)
 PER_RAD = Member(integer(1, 2**53))
+PLACES = ruled(several(FINITE, at_least=1, at_most=MAX_PLACES), rising)
+FREQUENCIES = several(POSITIVE, at_least=1, at_most=MAX_PLACES)
+SPACINGS = several(Member(integer(1, MOST_SPACING_TICKS)), at_least=1, at_most=MAX_PLACES)
+MULTIPLES = ruled(several(Member(integer(0, MAX_IMPULSES)), at_least=2, at_most=MAX_IMPULSES), counting)
 QUANTA = several(Member(integer(1, 2**22)), at_least=2, at_most=4097)
 TAP_AMPLITUDES = ruled(
     several(Member(AMPLITUDE.check), at_least=1, at_most=MAX_IMPULSES), sums_to_one_exactly

@@ -5,9 +5,11 @@ Not for: the mathematics (`swayless.design`) or the layout of the file (`swayles
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import cast
 
 import swayless
+from swayless.controller.spaced_taps import SpacingLaw
 from swayless.errors import DesignError
 from swayless.machine.banking import design_bank
 from swayless.machine.design_document import (
@@ -20,13 +22,17 @@ from swayless.machine.design_document import (
 )
 from swayless.machine.design_file import as_stored
 from swayless.machine.drive_section import DriveSection
+from swayless.machine.following_row import SPACED_LAWS
 from swayless.machine.machine_file import Machine
 from swayless.machine.phase_row import clock_of, design_phase_row
 from swayless.machine.plant_section import PlantSection, rope_bands
 from swayless.machine.row_design import design_of
 from swayless.machine.row_section import Row, RowSection
 from swayless.machine.running import most_phase_rad
-from swayless.machine.shaper_record import phase_record, shaper_record
+from swayless.machine.shaper_record import phase_record, shaper_record, spaced_record
+from swayless.machine.spaced_row import Followed, design_spaced_row
+from swayless.machine.spacing_record import PositionRecord, SpacingRecord
+from swayless.plant import Band
 
 GENERATOR = f"swayless {swayless.__version__}"
 """What a design file says of who made it."""
@@ -52,11 +58,7 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
     for position, row in enumerate(machine.rows, start=1):
         on_row(row.name)
         try:
-            records.append(
-                _phase_row(row, machine)
-                if machine.controller.law == "phase"
-                else design_row(row, tick_s=tick_s, contactor=contactor)
-            )
+            records.append(_ROW_OF_LAW[machine.controller.law](row, machine))
         except DesignError as error:
             raise DesignError(f'{machine.source}: [[row]] {position} ("{row.name}"): {error}') from error
     if machine.bank is not None:
@@ -78,6 +80,7 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
         shapers=tuple(records),
         bank=bank,
         clock=_clock_record(machine, records) if machine.controller.law == "phase" else None,
+        spacing=_spacing_record(machine) if machine.controller.law in SPACED_LAWS else None,
     )
     return as_stored(design)
 
@@ -139,12 +142,42 @@ def design_row(row: Row, *, tick_s: float | None, contactor: bool = False) -> Sh
     return shaper_record(row, design_of(row, tick_s=tick_s, contactor=contactor))
 
 
+def _fixed_row(row: Row, machine: Machine) -> ShaperRecord:
+    """Design one row by itself."""
+    return design_row(row, tick_s=machine.controller.tick_s, contactor=machine.drive.contactor)
+
+
 def _phase_row(row: Row, machine: Machine) -> ShaperRecord:
     """Design one row for every rope of a machine."""
     assert isinstance(row, RowSection)  # noqa: S101 - the phase clock's rows are of named families
     controller = machine.controller
     made = design_phase_row(row, machine.plant, tick_s=controller.tick_s, number=controller.number)
     return phase_record(row, made, machine.plant)
+
+
+def _spaced_row(row: Row, machine: Machine) -> ShaperRecord:
+    """Design one row for every position of a machine."""
+    assert isinstance(row, RowSection)  # noqa: S101 - rows of these laws are of named families
+    controller, band = machine.controller, Band(*machine.plant.frequency_hz)
+    law, tick_s, number = cast("SpacingLaw", controller.law), controller.tick_s, controller.number
+    made = design_spaced_row(row, _followed(machine.plant), band, law, tick_s=tick_s, number=number)
+    return spaced_record(row, made, machine.plant)
+
+
+_ROW_OF_LAW: Mapping[str, Callable[[Row, Machine], ShaperRecord]] = {
+    "fixed": _fixed_row,
+    "phase": _phase_row,
+} | dict.fromkeys(SPACED_LAWS, _spaced_row)
+
+
+def _followed(plant: PlantSection) -> Followed:
+    return Followed(plant.rope_length_m, plant.hoist_speed_m_s, plant.positions, plant.damping_ratio)
+
+
+def _spacing_record(machine: Machine) -> SpacingRecord:
+    """Give the spacing that all rows share."""
+    spacing = _followed(machine.plant).spacing(machine.controller.tick_s)
+    return SpacingRecord(spacing.starts, spacing.ticks)
 
 
 def _clock_record(machine: Machine, records: Sequence[ShaperRecord]) -> ClockRecord:
@@ -164,7 +197,7 @@ def _clock_record(machine: Machine, records: Sequence[ShaperRecord]) -> ClockRec
 
 def plant_record(plant: PlantSection) -> PlantRecord:
     """Give the plant as it stands in the design file."""
-    pendulum = plant.double_pendulum
+    pendulum, positions = plant.double_pendulum, plant.positions
     if pendulum is None or plant.rope_length_m is None:
         return PlantRecord(
             plant.kind,
@@ -173,6 +206,7 @@ def plant_record(plant: PlantSection) -> PlantRecord:
             plant.damping_ratio,
             None,
             plant.hoist_speed_m_s,
+            None if positions is None else PositionRecord(**vars(positions)),
         )
     upper = rope_bands(plant.rope_length_m, pendulum)[1]
     record = DoublePendulumRecord(

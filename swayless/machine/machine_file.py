@@ -14,10 +14,16 @@ from pathlib import Path
 from swayless.errors import FileError
 from swayless.machine.bank_section import MAX_ROWS, BankSection, read_bank, with_options
 from swayless.machine.checks import machine_name
-from swayless.machine.controller_section import ControllerSection, check_counts, read_controller
+from swayless.machine.controller_section import ControllerSection, check_counts, law_of, read_controller
 from swayless.machine.drive_section import DriveSection, read_drive
+from swayless.machine.following_row import (
+    FAMILIES_OF_LAW,
+    check_followed,
+    check_plant_kind,
+    following_law,
+    read_following_row,
+)
 from swayless.machine.move_section import MoveSection, read_moves
-from swayless.machine.phase_row import check_phase_plant, read_phase_row
 from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
 from swayless.machine.problems import RefusedError, Report, Table, plain, shown
 from swayless.machine.row_section import Row, read_row
@@ -148,24 +154,22 @@ def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] |
     kind = _plant_kind(root)
     _check_sections(root)
     plant_table, controller_table = _section(root, kind, None), _section(root, "controller", None)
-    drive_table = _section(root, "drive", {})
+    drive_table, law = _section(root, "drive", {}), law_of(controller_table)
+    kind = check_plant_kind(law, kind, plant_table)
     plant = read_plant(kind, plant_table)
     drive = read_drive(kind, plant_table, drive_table)
     controller = read_controller(controller_table)
     if drive is not None and controller_table.raw.get("number") == "int32":
         check_counts(drive_table, drive)
-    follows_rope = controller is not None and controller.law == "phase"
-    if follows_rope and plant is not None:
-        check_phase_plant(plant, plant_table, contactor=drive is not None and drive.contactor)
-    rows = _read_rows(
-        kind, root, plant, contactor=drive is not None and drive.contactor, follows_rope=follows_rope
-    )
+    contactor = drive is not None and drive.contactor
+    if law in FAMILIES_OF_LAW and plant is not None:
+        check_followed(law, plant, plant_table, contactor=contactor)
+    rows = _read_rows(kind, root, plant, law, contactor=contactor)
     bank_table = with_options(_section(root, "bank", {}), bank_options or {})
     bank = None
     if plant is not None and "bank" in root.raw:
-        contactor = drive is not None and drive.contactor
-        if follows_rope:
-            root.place("[bank]").problem('law = "phase" follows the rope with one row: give a [[row]]')
+        if law in FAMILIES_OF_LAW:
+            root.place("[bank]").problem(f'law = "{law}" needs one row for all of the range: give a [[row]]')
         bank = read_bank(bank_table, plant=plant, plant_table=plant_table, contactor=contactor)
         bank_table.close()
     speed_m_s = None if drive is None else drive.max_speed_m_s
@@ -217,7 +221,7 @@ def _as_rows(value: object) -> list[dict[str, object]]:
 
 
 def _read_rows(
-    kind: PlantKind, root: Table, plant: PlantSection | None, *, contactor: bool, follows_rope: bool
+    kind: PlantKind, root: Table, plant: PlantSection | None, law: str | None, *, contactor: bool
 ) -> tuple[Row, ...]:
     seen: dict[str, int] = {}
     rows = []
@@ -228,9 +232,10 @@ def _read_rows(
         name = raw.get("name")
         known_as = f" ({shown(name)})" if isinstance(name, str) else ""
         table = Table(raw, root.report, f"[[row]] {position}{known_as} ")
+        following = following_law(law, table)
         rows.append(
-            read_phase_row(table, plant)
-            if follows_rope
+            read_following_row(following, table, plant)
+            if following is not None
             else read_row(
                 kind,
                 table,

@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from swayless.machine.checks import one_or_two, quantity
+from swayless.machine.arm_positions import MOST_POSITIONS, POSITION_KEYS, ArmPositions, read_positions
+from swayless.machine.checks import one_or_two, quantity, some
 from swayless.machine.problems import Table
 from swayless.plant import Band, Mode, pendulum_frequency_hz
 from swayless.plant.double_pendulum import double_pendulum_modes
@@ -64,6 +65,8 @@ class PlantSection:
         Sling and masses, if the file gives them.
     hoist_speed_m_s : float or None
         Fastest that the rope's length changes, if the file gives it.
+    positions : ArmPositions or None
+        Where an arm has which frequency, if the file says so.
     """
 
     kind: PlantKind
@@ -72,18 +75,19 @@ class PlantSection:
     damping_ratio: float
     double_pendulum: DoublePendulum | None = None
     hoist_speed_m_s: float | None = None
+    positions: ArmPositions | None = None
 
 
 def read_plant(kind: PlantKind, table: Table) -> PlantSection | None:
     """Read the keys of the plant section that say what swings; None where that stays unknown."""
-    rope_length_m = double_pendulum = hoist_speed_m_s = None
+    rope_length_m = double_pendulum = hoist_speed_m_s = positions = None
     if kind == "crane":
         double_pendulum = _read_double_pendulum(table)
         table.need_one_of("rope_length", "frequency")
         rope_length_m = table.take("rope_length", one_or_two(LENGTH), None)
         frequency_hz = table.take("frequency", one_or_two(FREQUENCY), None)
     else:
-        frequency_hz = table.need("frequency", one_or_two(FREQUENCY))
+        positions, frequency_hz = _read_arm(table)
     damping_ratio = table.take("damping_ratio", DAMPING, 0.0)
     if kind == "crane":
         hoist_speed_m_s = table.take("hoist_speed", HOIST_SPEED, None)
@@ -92,7 +96,23 @@ def read_plant(kind: PlantKind, table: Table) -> PlantSection | None:
         frequency_hz = lower.low_hz, lower.high_hz
     if frequency_hz is None or damping_ratio is None:
         return None
-    return PlantSection(kind, rope_length_m, frequency_hz, damping_ratio, double_pendulum, hoist_speed_m_s)
+    return PlantSection(
+        kind, rope_length_m, frequency_hz, damping_ratio, double_pendulum, hoist_speed_m_s, positions
+    )
+
+
+def _read_arm(table: Table) -> tuple[ArmPositions | None, tuple[float, float] | None]:
+    """Read the frequencies of an arm, and the positions where it has them if the file gives those."""
+    if not any(key in table.raw for key in POSITION_KEYS):
+        frequency_hz = table.need("frequency", one_or_two(FREQUENCY))
+        table.asked.extend(POSITION_KEYS)
+        return None, frequency_hz
+    frequencies_hz = table.need("frequency", some(FREQUENCY, at_most=MOST_POSITIONS))
+    positions = read_positions(table, frequencies_hz)
+    return positions, None if positions is None else (
+        min(positions.frequency_hz),
+        max(positions.frequency_hz),
+    )
 
 
 def rope_bands(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import cast, get_args
 
 import numpy as np
 
@@ -19,18 +20,25 @@ from swayless.controller import (
 )
 from swayless.controller.phase_taps import phase_taps
 from swayless.controller.rope import MM_PER_M, RopeSettings, rope_settings
+from swayless.controller.spaced_taps import SpacedTaps, SpacingLaw, spaced_taps
+from swayless.controller.spacing import Spacing
 from swayless.controller.taps import RopeRows
 from swayless.design import GridShaper, Guarantee, Shaper
 from swayless.errors import ControllerError
 from swayless.machine.design_document import (
+    CLOSE,
+    AnyTapsRecord,
     DesignFile,
     DriveRecord,
     GuaranteeRecord,
     PhaseTapsRecord,
+    PlantRecord,
     ShaperRecord,
+    SpacedTapsRecord,
     TapsRecord,
 )
 from swayless.machine.phase_row import clock_of, taps_on_a_still_rope
+from swayless.machine.spaced_row import Followed, taps_at_the_slowest, typed_spacing
 from swayless.plant import Band, Mode
 
 _SAME_LENGTH = 1e-9
@@ -57,6 +65,8 @@ def shaper_settings(design: DesignFile, *, number: str | None = None) -> ShaperS
     kind = number_type(number or design.number)
     if design.law == "phase":
         return _phase_settings(design, kind)
+    if design.law in get_args(SpacingLaw):
+        return _spaced_settings(design, kind)
     rows = []
     for shaper in design.shapers:
         assert isinstance(shaper.taps, TapsRecord)  # noqa: S101 - the file has taps where it has a tick
@@ -150,6 +160,44 @@ def _phase_settings(design: DesignFile, kind: NumberType) -> ShaperSettings:
     return ShaperSettings(Bank(tuple(rows)), limits, rope)
 
 
+def _spaced_settings(design: DesignFile, kind: NumberType) -> ShaperSettings:
+    """Make the constants of a block whose taps follow a spacing; the spacing as stored."""
+    assert design.tick_s is not None  # noqa: S101 - a design file with this law has it
+    assert design.spacing is not None  # noqa: S101 - as above
+    followed = _followed(design.plant)
+    stored, fresh = Spacing(design.spacing.starts, design.spacing.ticks), followed.spacing(design.tick_s)
+    if stored.ticks != fresh.ticks or not np.allclose(stored.starts, fresh.starts, rtol=CLOSE, atol=CLOSE):
+        raise ControllerError("spacing: is not that of the stored ropes or positions, damping and tick")
+    spacing = typed_spacing(stored, kind)
+    rows = []
+    for shaper in design.shapers:
+        try:
+            taps = _spaced_taps(shaper, spacing, cast("SpacingLaw", design.law), design.tick_s, kind)
+        except ControllerError as error:
+            raise ControllerError(f'row "{shaper.name}": {error}') from error
+        rows.append(Row(shaper.name, shaper.family, taps))
+    limits = command_limits(_speed_limits(design.drive, kind.is_integer), tick_s=design.tick_s, number=kind)
+    rope = followed.settings(tick_s=design.tick_s, number=kind)
+    return ShaperSettings(Bank(tuple(rows)), limits, rope)
+
+
+def _spaced_taps(
+    shaper: ShaperRecord, spacing: Spacing, law: SpacingLaw, tick_s: float, kind: NumberType
+) -> SpacedTaps:
+    assert isinstance(shaper.taps, SpacedTapsRecord)  # noqa: S101 - a design file with these laws has them
+    guarantee = _guarantee(shaper, shaper.taps.guarantee)
+    impulses = Shaper(
+        np.array(shaper.times_s), np.array(shaper.taps.amplitudes), shaper.family, guarantee, shaper.name
+    )
+    return spaced_taps(impulses, spacing, law, tick_s=tick_s, guarantee=guarantee, number=kind)
+
+
+def _followed(plant: PlantRecord) -> Followed:
+    """Give what a spaced law follows."""
+    positions = None if plant.position is None else plant.position.positions
+    return Followed(plant.rope_length_m, plant.hoist_speed_m_s, positions, plant.damping_ratio)
+
+
 def stored_shapers(design: DesignFile) -> tuple[Shaper, ...]:
     """Give the shapers of a design file in continuous time, as stored.
 
@@ -179,21 +227,26 @@ def stored_taps(design: DesignFile) -> tuple[GridShaper, ...]:
         A design with a tick.
     """
     return tuple(
-        _grid_shaper(shaper, shaper.taps, design.tick_s)
+        _grid_shaper(shaper, shaper.taps, design)
         for shaper in design.shapers
         if shaper.taps is not None and design.tick_s is not None
     )
 
 
-def _grid_shaper(shaper: ShaperRecord, taps: TapsRecord | PhaseTapsRecord, tick_s: float) -> GridShaper:
-    """Give taps on ticks; those at phases as they release on the rope of the row's mode."""
+def _grid_shaper(shaper: ShaperRecord, taps: AnyTapsRecord, design: DesignFile) -> GridShaper:
+    """Give taps on ticks; those that follow the machine as they release at the row's own mode."""
+    assert design.tick_s is not None  # noqa: S101 - the file has taps exactly where it has a tick
     if isinstance(taps, PhaseTapsRecord):
         still = _guarantee(shaper, shaper.guarantee)
-        return taps_on_a_still_rope(taps.phases_rad, taps.amplitudes, still, tick_s)
+        return taps_on_a_still_rope(taps.phases_rad, taps.amplitudes, still, design.tick_s)
+    if isinstance(taps, SpacedTapsRecord):
+        assert design.spacing is not None  # noqa: S101 - a design file with such taps has it
+        promise = _guarantee(shaper, taps.guarantee)
+        return taps_at_the_slowest(taps.amplitudes, max(design.spacing.ticks), promise, design.tick_s)
     return GridShaper(
         np.array(taps.delays_ticks),
         np.array(taps.amplitudes),
-        tick_s,
+        design.tick_s,
         _guarantee(shaper, taps.guarantee),
     )
 

@@ -19,6 +19,7 @@ from swayless.machine.design_document import (
     ModeRecord,
     PhaseTapsRecord,
     ShaperRecord,
+    SpacedTapsRecord,
     TapsRecord,
 )
 from swayless.machine.phase_row import PhaseDesign
@@ -26,6 +27,7 @@ from swayless.machine.plant_section import PlantSection
 from swayless.machine.robust_row import RobustRow
 from swayless.machine.row_design import RowDesign
 from swayless.machine.row_section import Row, RowSection
+from swayless.machine.spaced_row import SpacedDesign
 from swayless.plant import Band
 
 _SAME_LENGTH = 1e-11  # relative: more than bands of 12 digits move a rope, less than anybody means
@@ -80,6 +82,31 @@ def phase_record(row: RowSection, design: PhaseDesign, plant: PlantSection) -> S
         duration_s=shaper.duration_s,
         overtravel_s=float(amplitudes @ shaper.times_s),
         guarantee=replace(promise, rope_length_m=plant.rope_length_m),
+    )
+    return replace(record, taps=taps)
+
+
+def spaced_record(row: RowSection, design: SpacedDesign, plant: PlantSection) -> ShaperRecord:
+    """Make the record of a row under a spaced law; its times are those where the machine vibrates slowest.
+
+    Parameters
+    ----------
+    row : RowSection
+        What was asked for.
+    design : SpacedDesign
+        What was found.
+    plant : PlantSection
+        For the range of ropes.
+    """
+    record = shaper_record(row, RowDesign(design.shaper, None, None))
+    promise = _guarantee_record(row, design.taps.guarantee)
+    amplitudes, times_s = decimal_amplitudes(design.shaper.amplitudes), design.taps.times_s
+    taps = SpacedTapsRecord(
+        delays_spacings=tuple(range(amplitudes.size)),
+        amplitudes=tuple(amplitudes.tolist()),
+        duration_s=design.taps.duration_s,
+        overtravel_s=float(amplitudes @ times_s),
+        guarantee=replace(promise, rope_length_m=plant.rope_length_m or promise.rope_length_m),
     )
     return replace(record, taps=taps)
 

@@ -100,8 +100,18 @@ def rising_from_zero(values: tuple[float, ...]) -> str | None:
     """Rule: the first value is 0, and each is above the one before."""
     if values[0] != 0:
         return f"must start at 0, starts at {values[0]!r}"
+    return rising(values)
+
+
+def rising(values: tuple[float, ...]) -> str | None:
+    """Rule: each value is above the one before."""
     falls = [index for index in range(1, len(values)) if values[index] <= values[index - 1]]
     return f"must rise, does not at item {falls[0]} ({values[falls[0]]!r})" if falls else None
+
+
+def counting(values: tuple[int, ...]) -> str | None:
+    """Rule: the values are 0, 1, 2 and so on."""
+    return None if values == tuple(range(len(values))) else "must be 0, 1, 2 and so on"
 
 
 def sums_to_one(amplitudes: tuple[float, ...]) -> str | None:

@@ -8,16 +8,22 @@ import pytest
 DOCS = Path(__file__).parents[2] / "docs"
 
 
-def _example_in(page: str, language: str) -> str:
+def _example_in(page: str, language: str, which: int = 0) -> str:
     found = re.findall(rf"```{language}\n(.*?)```", (DOCS / page).read_text(encoding="utf-8"), re.DOTALL)
     assert found, f"{page} has no {language} example"
-    return str(found[0])
+    return str(found[which])
 
 
 @pytest.fixture(scope="session")
 def machine_text() -> str:
     """The complete machine file of the documentation."""
     return _example_in("machine-file.md", "toml")
+
+
+@pytest.fixture(scope="session")
+def arm_text() -> str:
+    """The machine file of the documentation whose vibration depends on a position."""
+    return _example_in("machine-file.md", "toml", 2)
 
 
 @pytest.fixture(scope="session")

@@ -22,7 +22,13 @@ rope_length = 5
 """
 
 ROW = '[[row]] 1 ("one")'
-CASES = (Path(__file__).parent / "machine-file-cases.txt").read_text(encoding="utf-8").split("\n\n")[1:]
+
+
+def _cases(name: str) -> list[str]:
+    return (Path(__file__).parent / name).read_text(encoding="utf-8").split("\n\n")[1:]
+
+
+CASES, ARM_CASES = _cases("machine-file-cases.txt"), _cases("arm-file-cases.txt")
 
 SYNTAX = [
     ("[4, 8]", "29 ft", "line 3, column 18: 'rope_length = 29 ft': not valid TOML: ",
@@ -63,6 +69,15 @@ def test_each_mistake_has_its_message(tmp_path: Path, case: str) -> None:
     old, new = "\n".join(_part(case, "-")), "\n".join(_part(case, "+"))
     assert old in GOOD
     assert _problems(tmp_path, GOOD.replace(old, new, 1)) == _part(case, "!")
+
+
+@pytest.mark.parametrize("case", ARM_CASES, ids=[_part(case, "!")[0] for case in ARM_CASES])
+def test_each_mistake_of_an_arm_with_positions_has_its_message(
+    tmp_path: Path, arm_text: str, case: str
+) -> None:
+    old, new = "\n".join(_part(case, "-")), "\n".join(_part(case, "+"))
+    assert old in arm_text
+    assert _problems(tmp_path, arm_text.replace(old, new, 1)) == _part(case, "!")
 
 
 @pytest.mark.parametrize(("old", "new", "start", "end"), SYNTAX)

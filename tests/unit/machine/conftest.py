@@ -27,6 +27,12 @@ def design_text() -> str:
 
 
 @pytest.fixture(scope="session")
+def arm_text() -> str:
+    """The machine file of the documentation whose vibration depends on a position."""
+    return _example_in("machine-file.md", "toml", 2)
+
+
+@pytest.fixture(scope="session")
 def bank_text() -> str:
     """The other machine file of the documentation, which has a bank."""
     return _example_in("machine-file.md", "toml", 1)
