@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from swayless.design.along_ropes import held_ropes, worst_on_ropes
+from swayless.design.along_ropes import HeldRopes, held_ropes, worst_on_ropes
 from swayless.errors import DesignError
 from swayless.machine.bank_record import BankRecord
 from swayless.machine.bank_section import BankSection
@@ -113,5 +113,14 @@ def _record(row: RobustRow, design: RowDesign, ropes: DrivenRopes) -> ShaperReco
     """Make the record of a row with the ropes that it holds, around its shortest and longest."""
     assert row.rope_range_m is not None  # noqa: S101 - a driven crane is given by ropes
     middle_m, allowed = 0.5 * sum(row.rope_range_m), row.tolerance * (1.0 - MARGIN)
-    held = tuple(held_ropes(made, ropes, middle_m, tolerance=allowed) for made in impulses_of(design))
+    held = tuple(
+        _with(row.rope_range_m, held_ropes(made, ropes, middle_m, tolerance=allowed))
+        for made in impulses_of(design)
+    )
     return driven_record(row, DrivenDesign(row, design, held))
+
+
+def _with(range_m: tuple[float, float], held: HeldRopes) -> HeldRopes:
+    """Add the ends of a range that is held, which rounding may leave out."""
+    ends_m = min(held.range_m[0], range_m[0]), max(held.range_m[1], range_m[1])
+    return replace(held, range_m=ends_m)

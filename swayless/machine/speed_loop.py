@@ -5,6 +5,8 @@ Not for: what the command is in, and its limits (`swayless.machine.drive_section
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from swayless.errors import PlantError
 from swayless.machine.checks import number, quantity
 from swayless.machine.plant_section import MASS, PlantSection
@@ -53,13 +55,13 @@ def read_speed_loop(drive: Table) -> ServoDrive | None:
 
 
 def driven_ropes(
-    speed_loop: ServoDrive, plant: PlantSection, drive: Table, *, law: str | None
+    speed_loop: ServoDrive | None, plant: PlantSection, drive: Table, *, law: str | None
 ) -> DrivenRopes | None:
     """Give the ropes of a crane below its driven trolley; None, and a problem, where that is not possible.
 
     Parameters
     ----------
-    speed_loop : ServoDrive
+    speed_loop : ServoDrive or None
         Of `read_speed_loop`.
     plant : PlantSection
         What swings.
@@ -68,6 +70,8 @@ def driven_ropes(
     law : str or None
         Of the controller.
     """
+    if speed_loop is None:
+        return None
     place = drive.place("trolley_mass")
     if plant.rope_length_m is None:
         place.problem("a speed loop is felt by the load of a [crane] given by rope_length; leave it out")
@@ -90,3 +94,16 @@ def driven_ropes(
         key = next(key for key in _GAINS if key in drive.raw)
         drive.place(key).wrong(drive.raw[key], f"{error}")
         return None
+
+
+def plant_below(plant: PlantSection, ropes: DrivenRopes) -> PlantSection:
+    """Give a plant the frequencies that its ropes have below the driven trolley.
+
+    Parameters
+    ----------
+    plant : PlantSection
+        As its section describes it; its damping ratio stays the rope's own.
+    ropes : DrivenRopes
+        Its ropes.
+    """
+    return replace(plant, frequency_hz=ropes.frequency_range_hz(ropes.range_m))
