@@ -83,36 +83,34 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
             f"0 unshaped, {choice}; anything else keeps the last valid one",
         ),
     )
-    return pins if settings.rope is None else (*pins, *_rope_pins(settings.rope, settings.number))
+    return pins if settings.rope is None else (*pins, *_measured_pins(settings.rope, settings.number))
 
 
-def _rope_pins(rope: RopeSettings, number: NumberType) -> tuple[Pin, ...]:
-    """List what a measured rope adds to the inputs."""
-    length, speed = (
-        ("rope_length_mm", "hoist_speed_mm_s") if number.is_integer else ("rope_length_m", "hoist_speed_m_s")
-    )
+def _measured_pins(rope: RopeSettings, number: NumberType) -> tuple[Pin, ...]:
+    """List what a measured rope, or the position of an arm, adds to the inputs."""
+    measured, whole = rope.measured, number.is_integer
     return (
         Pin(
-            length,
-            "RopeLength",
+            measured.c_value(is_integer=whole),
+            measured.st_name,
             "real",
             f"{rope.shortest:.6g} to {rope.longest:.6g}: clamped; the last one holds if it cannot be true",
-            "m",
-            "mm",
+            measured.value_unit(is_integer=False),
+            measured.value_unit(is_integer=True),
         ),
         Pin(
-            speed,
-            "HoistSpeed",
+            measured.c_speed(is_integer=whole),
+            measured.st_speed,
             "real",
-            "rate of change of the length, positive when the load sinks; clamped",
-            "m/s",
-            "mm/s",
+            measured.said("rate of change of the length, positive when the load sinks; clamped"),
+            measured.speed_unit(is_integer=False),
+            measured.speed_unit(is_integer=True),
         ),
         Pin(
-            "rope_length_valid",
-            "RopeLengthValid",
+            measured.c_valid,
+            measured.st_valid,
             "bool",
-            "false: the rope length is not to be believed",
+            measured.said("false: the rope length is not to be believed"),
             st_initial="TRUE",
         ),
     )

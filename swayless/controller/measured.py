@@ -23,12 +23,12 @@ class Measured:
         Pins in Structured Text.
     unit : str
         ``"m"`` or ``"rad"``; in int32 thousandths of it.
-    title, speed_title : str
-        What the two are called in a sentence.
-    mover : str
-        What changes the quantity.
-    direction : str
-        What a positive rate of change means.
+    title, noun : str
+        What the quantity is called in a sentence, at first and later on.
+    speed_title : str
+        What its rate of change is called.
+    mover, growth : str
+        What changes the quantity, and what happens when it grows.
     is_length : bool
         Whether values must be above 0.
 
@@ -46,9 +46,10 @@ class Measured:
     st_speed: str
     unit: str
     title: str
+    noun: str
     speed_title: str
     mover: str
-    direction: str
+    growth: str
     is_length: bool
 
     def value_unit(self, *, is_integer: bool) -> str:
@@ -93,17 +94,21 @@ class Measured:
         return self.said(explain(bit)) if bit & ROPE_BITS else explain(bit)
 
     def said(self, text: str) -> str:
-        """Say of this quantity what a text says of a rope length, its hoist speed and the hoist.
+        """Say of this quantity what a text says of the length of a rope and of its hoist.
 
         Examples
         --------
-        >>> ARM_POSITION.said("The hoist moves the rope length.")
-        'The axis moves the position.'
+        >>> ARM_POSITION.said("positive when the load sinks; at rest every length is taken")
+        'positive when the position grows; at rest every position is taken'
         """
-        words = ((ROPE.title, self.title), (ROPE.speed_title, self.speed_title), (ROPE.mover, self.mover))
-        for old, new in words:
+        for old, new in zip(ROPE.words, self.words, strict=True):
             text = text.replace(old, new)
         return text
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """Words that differ between what may be measured; longer ones first."""
+        return self.title, self.noun, self.speed_title, self.mover, self.growth
 
 
 ROPE = Measured(
@@ -113,9 +118,10 @@ ROPE = Measured(
     st_speed="HoistSpeed",
     unit="m",
     title="rope length",
+    noun="length",
     speed_title="hoist speed",
     mover="hoist",
-    direction="positive when the load sinks",
+    growth="the load sinks",
     is_length=True,
 )
 """The rope of a crane, from the suspension to the load's centre of gravity."""
@@ -129,9 +135,10 @@ def _arm(unit: str) -> Measured:
         st_speed="PositionSpeed",
         unit=unit,
         title="position",
+        noun="position",
         speed_title="position speed",
         mover="axis",
-        direction="positive when the position grows",
+        growth="the position grows",
         is_length=False,
     )
 

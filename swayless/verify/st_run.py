@@ -2,34 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
 from swayless.controller.number import NumberType
+from swayless.errors import VerificationError
 from swayless.verify.records import output_dtype
 from swayless.verify.structured_text import load
-
-PINS = {
-    "enable": "Enable",
-    "emergency_stop": "EmergencyStop",
-    "quick_stop": "QuickStop",
-    "command": "Command",
-    "selector": "Selector",
-    "rope_length": "RopeLength",
-    "hoist_speed": "HoistSpeed",
-    "rope_length_valid": "RopeLengthValid",
-    "reference": "Reference",
-    "stop_distance": "StopDistance",
-    "stop_time_s": "StopTime",
-    "stop_time_ticks": "StopTimeTicks",
-    "residual_bound": "ResidualBound",
-    "row": "Row",
-    "settled": "Settled",
-    "active": "Active",
-    "error": "Error",
-    "status": "Status",
-}
-"""Pins of the block by the name of the field in a record."""
 
 
 class EvaluatedBlock:
@@ -55,14 +36,27 @@ class EvaluatedBlock:
         self._number = number
 
     def run(self, inputs: NDArray[np.void]) -> NDArray[np.void]:
-        """Run the block from power-on over a stimulus; arrays as in `CompiledBlock.run`."""
+        """Run the block from power-on over a stimulus; arrays as in `CompiledBlock.run`.
+
+        Raises
+        ------
+        VerificationError
+            If the block has other pins than the records have fields.
+        """
         block = self._program.instantiate()
         outputs = np.zeros(inputs.size, dtype=output_dtype(self._number))
-        names = inputs.dtype.names or ()
-        pins = [PINS[name] for name in names]
-        results = [PINS[name] for name in outputs.dtype.names or ()]
-        columns = [inputs[name].tolist() for name in names]
+        pins = _in_order(self._program.inputs, inputs.dtype)
+        results = _in_order(self._program.outputs, outputs.dtype)
+        columns = [inputs[name].tolist() for name in inputs.dtype.names or ()]
         for tick, values in enumerate(zip(*columns, strict=True)):
             found = block.step(dict(zip(pins, values, strict=True)))
             outputs[tick] = tuple(found[name] for name in results)
         return outputs
+
+
+def _in_order(pins: Mapping[str, str], record: np.dtype[np.void]) -> list[str]:
+    """Name the pins of a block in the order of the fields of a record, which is theirs."""
+    fields = record.names or ()
+    if len(pins) != len(fields):
+        raise VerificationError(f"pins {', '.join(pins)}: expected {len(fields)}: {', '.join(fields)}")
+    return list(pins)
