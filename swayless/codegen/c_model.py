@@ -14,8 +14,9 @@ from swayless.codegen.clock_names import ClockNames, clock_names
 from swayless.codegen.features import Features, features_of
 from swayless.codegen.names import check_c_names
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
+from swayless.controller.measured import ROPE
 from swayless.controller.settings import ShaperSettings
-from swayless.controller.status import ERROR_BITS, explain
+from swayless.controller.status import ERROR_BITS
 
 
 @dataclass(frozen=True)
@@ -181,7 +182,14 @@ class CModel:
         taps = f"the taps of the row in use, at most {self.most_taps}"
         if self.features.has_phase_clock:
             return f"{taps}, and at most {self.clock.most_cells} cells of each; none settled on a still rope"
+        if self.features.has_spacing:
+            return f"{taps}, and {self.clock.look_ups} looks into the table of the spacing; none when settled"
         return f"{taps}; none when settled"
+
+    @property
+    def init_cost(self) -> str:
+        """Work of the first call."""
+        return "O(cells of the ring)" if self.features.spacing_law == "original" else "O(1)"
 
     @property
     def source_provenance(self) -> list[str]:
@@ -199,7 +207,8 @@ class CModel:
     @property
     def status_bits(self) -> list[StatusBit]:
         """The status word."""
-        bits = self.settings.status_bits
+        bits, rope = self.settings.status_bits, self.settings.rope
+        explain = (ROPE if rope is None else rope.measured).explain
         return [StatusBit(bit.name or "", bit.value.bit_length() - 1, explain(bit)) for bit in bits]
 
     @property

@@ -1,6 +1,11 @@
-"""What the C block knows of a measured rope, and what it remembers. Not for: the phase clock."""
+"""What the C block knows of a measured rope, and what it remembers. Not for: the phase clock.
+
+The position of an arm is read in the same way: names of the code say rope for it too, its pins do not.
+"""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from swayless.codegen.c_types import CConstant, CField, CTable, CTypes, c_table
 from swayless.controller.rope import MOST_HELD_TICKS, RopeSettings
@@ -21,20 +26,20 @@ def rope_constants(rope: RopeSettings, types: CTypes) -> list[CConstant]:
         Types of the block.
     """
     whole = types.number.is_integer
-    length, tick, way = ("mm", "us", "mm times 10^6") if whole else ("m", "s", "m")
+    measured, length = rope.measured, rope.measured.value_unit(is_integer=whole)
+    tick, way = ("us", f"{length} times 10^6") if whole else ("s", length)
     frozen = rope.jump * FROZEN_SCALE if whole else rope.jump
     constants = [
-        ("SHORTEST_ROPE", rope.shortest, f"{length}: rope_length"),
-        ("LONGEST_ROPE", rope.longest, f"{length}: rope_length"),
-        ("HOIST_SPEED", rope.hoist_speed, f"{length}/s: hoist_speed"),
+        ("SHORTEST_ROPE", rope.shortest, f"{length}: {measured.c_name}"),
+        ("LONGEST_ROPE", rope.longest, f"{length}: {measured.c_name}"),
+        ("HOIST_SPEED", rope.hoist_speed, f"{length}/s: {measured.c_speed_name}"),
         ("ROPE_JUMP", rope.jump, f"{length}: difference of two readings that is always taken"),
-        ("ROPE_WAY_PER_TICK", rope.way_per_tick, f"{length}: hoist_speed times tick"),
+        ("ROPE_WAY_PER_TICK", rope.way_per_tick, f"{length}: {measured.c_speed_name} times tick"),
         ("ROPE_TICK", rope.tick_s, f"{tick}: tick"),
-        ("FROZEN_WAY", frozen, f"{way}: a length that stays so long is frozen"),
+        ("FROZEN_WAY", frozen, measured.said(f"{way}: a length that stays so long is frozen")),
     ]
-    held = CConstant(
-        "uint32_t", "MOST_HELD_TICKS", f"{MOST_HELD_TICKS}u", "by then the hoist may be anywhere"
-    )
+    anywhere = measured.said("by then the hoist may be anywhere")
+    held = CConstant("uint32_t", "MOST_HELD_TICKS", f"{MOST_HELD_TICKS}u", anywhere)
     return [*(CConstant(types.real, name, types.literal(value), doc) for name, value, doc in constants), held]
 
 
@@ -74,9 +79,10 @@ def rope_members(rope: RopeSettings, types: CTypes) -> list[CField]:
         Types of the block.
     """
     zero = types.literal(0)
-    return [
+    members = [
         CField(types.sum, "unmoved", "way of the hoist while the length stayed", "", zero),
         CField(types.real, "rope_length", "length believed", "", types.literal(rope.longest)),
         CField(types.real, "hoist_speed", "hoist speed, clamped", "", zero),
         CField("uint32_t", "held_ticks", "ticks for which no length was taken", "", "0u"),
     ]
+    return [replace(member, c_doc=rope.measured.said(member.c_doc)) for member in members]

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from swayless.codegen.c_phase_state import phase_cells, phase_members, phase_ring, ring_length
 from swayless.codegen.c_rope import rope_members
+from swayless.codegen.c_spacing import spacing_flags, spacing_members, spacing_ring
 from swayless.codegen.c_types import CField, CTypes
 from swayless.codegen.clock_names import clock_names
 from swayless.codegen.features import Features
@@ -47,14 +48,18 @@ class CState:
         self.outputs = [self._member(pin) for pin in output_pins(settings)]
         self.cells = [] if settings.clock is None else phase_cells(settings, types)
         rope = [] if settings.rope is None else rope_members(settings.rope, types)
-        clock = self._sums() if settings.clock is None else phase_members(settings, types)
-        self.members = [*clock, *self._commands(features), *rope, *self._buffers(), *self._flags(features)]
+        sums, commands = self._sums(features), self._commands(features)
+        self.members = [*sums, *commands, *rope, *self._buffers(features), *self._flags(features)]
 
     def _member(self, pin: Pin) -> CField:
         types = {"bool": "bool", "real": self._types.real, "row": "uint8_t", "word": "uint32_t"}
         return CField(types[pin.kind], pin.c_name, pin.text(is_integer=self._types.number.is_integer))
 
-    def _sums(self) -> list[CField]:
+    def _sums(self, features: Features) -> list[CField]:
+        if features.has_phase_clock:
+            return phase_members(self._settings, self._types)
+        if features.has_spacing:
+            return spacing_members(self._settings, self._types)
         zero, wide = self._types.literal(0), self._types.sum
         if self._types.number.is_integer:
             second = CField(wide, "carry", "what rounding owes the next reference, over 2^30", "", zero)
@@ -77,13 +82,13 @@ class CState:
     def _base_doc(self) -> str:
         return "command of the last rest" if self._settings.clock is None else "command shaped last"
 
-    def _buffers(self) -> list[CField]:
+    def _buffers(self, features: Features) -> list[CField]:
         clock, still = self._clock, f"{self._settings.longest_lag}u"
         still_doc = f"{clock.unit} without change, up to the longest {clock.lag}"
         return [
             CField(self._types.input, "input", "last inputs"),
             CField(self._types.output, "output", "last outputs"),
-            *self._ring(),
+            *self._ring(features),
             CField("uint32_t", "head", "cell of the newest command", "", f"{self._last}u"),
             CField("uint32_t", clock.c_still, still_doc, "", still),
             CField("uint32_t", "status", "status bits of this tick", "", "0u"),
@@ -93,15 +98,17 @@ class CState:
             *([CField("uint8_t", "rope_row", "row of the rope", "", "1u")] if self._has_rope_rows else []),
         ]
 
-    def _ring(self) -> list[CField]:
-        if self._settings.clock is not None:
+    def _ring(self, features: Features) -> list[CField]:
+        if features.has_phase_clock:
             return phase_ring(self._settings, self._types)
+        if features.has_spacing:
+            return spacing_ring(self._settings, self._types)
         ring = f"[{self._types.name.upper()}_SHAPER_RING]"
         return [CField(self._types.real, "ring", "last ramped commands", ring, elements=self._last + 1)]
 
     def _flags(self, features: Features) -> list[CField]:
         names = [
-            self._running_flag(),
+            *self._running_flags(features),
             ("foretold", "settled, and the stop is foretold"),
             ("idle", "the last tick began and ended settled"),
             ("zero_commanded", "the command is a valid 0"),
@@ -115,10 +122,12 @@ class CState:
             names.append(("rope_still", "the last reading of the rope changed nothing"))
         return [CField("bool", name, doc, "", "false") for name, doc in names]
 
-    def _running_flag(self) -> tuple[str, str]:
-        if self._settings.clock is None:
-            return "lapped", "the ring is full of commands since the last rest"
-        return "running", "parts of changes may be under way"
+    def _running_flags(self, features: Features) -> list[tuple[str, str]]:
+        if features.has_phase_clock:
+            return [("running", "parts of changes may be under way")]
+        if features.has_spacing:
+            return spacing_flags(self._settings)
+        return [("lapped", "the ring is full of commands since the last rest")]
 
     @property
     def ram_bytes(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swayless.codegen.c_phase_tables import phase_constants, phase_tables
 from swayless.codegen.c_rope import rope_constants, rope_row_tables
+from swayless.codegen.c_spacing import spacing_constants, spacing_tables
 from swayless.codegen.c_types import CConstant, CField, CTable, CTypes, c_table
 from swayless.codegen.clock_names import clock_names
 from swayless.codegen.features import Features
@@ -56,6 +57,7 @@ class CTables:
             )
         constants += self._integer_constants(units) if self._is_integer else self._float_constants(units)
         constants += rope_constants(settings.rope, self._types) if settings.rope is not None else []
+        constants += spacing_constants(settings) if self._features.has_spacing else []
         return constants + (phase_constants(settings, self._types) if settings.clock is not None else [])
 
     def _float_constants(self, units: OutputUnits) -> list[CConstant]:
@@ -138,12 +140,7 @@ class CTables:
             c_table(
                 "uint32_t", "FIRST_TAP", [[f"{f}u" for f in firsts]], "first tap of each row, and the end"
             ),
-            c_table(
-                "uint32_t",
-                clock.c_lags,
-                [[f"{lag}u" for lag in r.lags] for r in rows],
-                f"{clock.lag} of each tap, by row",
-            ),
+            *self._lag_tables(),
             c_table(
                 real, "AMPLITUDE", by_row, f"amplitude of each tap, by row; each row sums to exactly 1{scale}"
             ),
@@ -165,11 +162,22 @@ class CTables:
             )
         if self._features.has_rope_rows:
             tables += rope_row_tables(self._settings.bank.by_rope, self._types)
+        tables += spacing_tables(self._settings, self._types) if self._features.has_spacing else []
         return tables + (
             phase_tables(self._settings, self._types) if self._settings.clock is not None else []
         )
 
+    def _lag_tables(self) -> list[CTable]:
+        """List the lag of each tap; multiples of a spacing need no table."""
+        clock, rows = clock_names(self._settings), self._settings.row_tables
+        if self._features.has_spacing:
+            return []
+        lags = [[f"{lag}u" for lag in row.lags] for row in rows]
+        return [c_table("uint32_t", clock.c_lags, lags, f"{clock.lag} of each tap, by row")]
+
     def _moment_tables(self) -> list[CTable]:
+        if self._features.has_spacing:
+            return []
         clock = clock_names(self._settings)
         doc = (
             f"sum of amplitude times {clock.lag} of each row: references to come per unit of a steady command"

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from swayless.codegen.law_text import spacing_law
 from swayless.controller.settings import ShaperSettings
+from swayless.controller.spaced_taps import SpacingLaw
 
 
 @dataclass(frozen=True)
@@ -18,11 +20,13 @@ class Features:
     has_waiting_rows : bool
         Whether a row has negative amplitudes.
     has_rope : bool
-        Whether the rope is measured.
+        Whether the rope, or the position of an arm, is measured.
     has_phase_clock : bool
         Whether delays are phases of the pendulum.
     has_rope_rows : bool
         Whether the rope chooses among several rows.
+    spacing_law : "original", "modified" or None
+        What happens when the spacing of the taps changes; None where they follow none.
     """
 
     has_minimum: bool
@@ -32,6 +36,17 @@ class Features:
     has_rope: bool
     has_phase_clock: bool
     has_rope_rows: bool
+    spacing_law: SpacingLaw | None
+
+    @property
+    def has_spacing(self) -> bool:
+        """Whether delays are multiples of a spacing that is looked up each tick."""
+        return self.spacing_law is not None
+
+    @property
+    def has_turn(self) -> bool:
+        """Whether what is measured moves the taps."""
+        return self.has_phase_clock or self.has_spacing
 
     @property
     def checked_doc(self) -> str:
@@ -65,4 +80,5 @@ def features_of(settings: ShaperSettings) -> Features:
         has_rope=settings.rope is not None,
         has_phase_clock=settings.clock is not None,
         has_rope_rows=settings.bank.by_rope is not None and len(settings.bank.rows) > 1,
+        spacing_law=spacing_law(settings),
     )

@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from swayless.codegen.law_text import law_lines, phase_row_lines, rope_lines
+from swayless.codegen.law_text import law_lines, phase_row_lines, rope_lines, spaced_row_lines
+from swayless.controller.measured import ROPE
 from swayless.controller.phase_taps import PhaseTaps
 from swayless.controller.settings import ShaperSettings
+from swayless.controller.spaced_taps import SpacedTaps
 from swayless.controller.taps import Row
 from swayless.design.robustness import overtravel_s, peak_factor, rope_length_interval_m
 from swayless.errors import CodegenError
@@ -114,10 +116,11 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
         "on these very taps:",
         "  0 unshaped (ramped only)",
     ]
+    measured = ROPE if settings.rope is None else settings.rope.measured
     for position, row in enumerate(settings.bank.rows, start=1):
         lines += [
             f"  {position} {line}" if i == 0 else f"    {line}"
-            for i, line in enumerate(_row_lines(row, provenance))
+            for i, line in enumerate(_row_lines(row, provenance, measured.title))
         ]
     lines += [*rope_lines(settings), "", *facts, ""]
     lines += [
@@ -128,10 +131,12 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
     return lines
 
 
-def _row_lines(row: Row, provenance: Provenance) -> list[str]:
+def _row_lines(row: Row, provenance: Provenance, title: str) -> list[str]:
     taps, guarantee = row.taps, row.taps.guarantee
     if isinstance(taps, PhaseTaps):
         return phase_row_lines(row)
+    if isinstance(taps, SpacedTaps):
+        return spaced_row_lines(row, taps.spacing, title)
     bands = " and ".join(f"from {band.low_hz:.6g} to {band.high_hz:.6g}" for band in guarantee.bands)
     lowest, highest = guarantee.damping_ratios
     damping = f"{lowest:.6g}" if lowest == highest else f"{lowest:.6g} to {highest:.6g}"
