@@ -303,6 +303,7 @@ class DesignFile(Record):
             yield "bank.labels", f"has {len(self.bank.labels)} values, there are {len(self.shapers)} shapers"
         yield from self._phase_clock()
         yield from self._spacing()
+        yield from self._speed_loop()
         if self.number == "int32" and self.drive.counts_per_m_s is None:
             yield "drive.counts_per_m_s", 'is null, and number = "int32" computes in counts'
         names = [shaper.name.lower() for shaper in self.shapers]
@@ -327,6 +328,13 @@ class DesignFile(Record):
                     yield key, 'is null, and law = "phase" needs it'
         elif self.clock is not None:
             yield "clock", f'must be null: law = "{self.law}"'
+
+    def _speed_loop(self) -> Iterator[tuple[str, str]]:
+        """Require a crane with ropes, and the law that holds their modes, where the load is felt."""
+        if self.drive.speed_loop is None:
+            return
+        if self.plant.kind != "crane" or self.plant.rope_length_m is None or self.law != "fixed":
+            yield "drive.speed_loop", 'needs plant.kind = "crane", plant.rope_length_m and law = "fixed"'
 
     def _spacing(self) -> Iterator[tuple[str, str]]:
         """Require what a spaced law needs exactly where it is the law."""

@@ -5,12 +5,15 @@ Not for: the mathematics (`swayless.design`) or the layout of the file (`swayles
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import cast
 
 import swayless
 from swayless.controller.spaced_taps import SpacingLaw
 from swayless.errors import DesignError
+from swayless.machine.bank_record import BankRecord
+from swayless.machine.bank_section import BankSection
 from swayless.machine.banking import design_bank
 from swayless.machine.design_document import (
     ClockRecord,
@@ -19,9 +22,12 @@ from swayless.machine.design_document import (
     DriveRecord,
     PlantRecord,
     ShaperRecord,
+    SpeedLoopRecord,
 )
 from swayless.machine.design_file import as_stored
 from swayless.machine.drive_section import DriveSection
+from swayless.machine.driven_bank import design_driven_bank
+from swayless.machine.driven_row import design_driven_row, driven_record
 from swayless.machine.following_row import SPACED_LAWS
 from swayless.machine.machine_file import Machine
 from swayless.machine.phase_row import clock_of, design_phase_row
@@ -32,7 +38,7 @@ from swayless.machine.running import most_phase_rad
 from swayless.machine.shaper_record import phase_record, shaper_record, spaced_record
 from swayless.machine.spaced_row import Followed, design_spaced_row
 from swayless.machine.spacing_record import PositionRecord, SpacingRecord
-from swayless.plant import Band
+from swayless.plant import Band, ServoDrive
 
 GENERATOR = f"swayless {swayless.__version__}"
 """What a design file says of who made it."""
@@ -54,7 +60,6 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
         If a row or the bank cannot be designed as asked; the message names it.
     """
     records, bank = [], None
-    tick_s, contactor = machine.controller.tick_s, machine.drive.contactor
     for position, row in enumerate(machine.rows, start=1):
         on_row(row.name)
         try:
@@ -63,17 +68,15 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
             raise DesignError(f'{machine.source}: [[row]] {position} ("{row.name}"): {error}') from error
     if machine.bank is not None:
         try:
-            made = design_bank(machine.bank, machine.plant, tick_s=tick_s, contactor=contactor, on_row=on_row)
+            records, bank = _bank(machine.bank, machine, on_row)
         except DesignError as error:
             raise DesignError(f"{machine.source}: [bank]: {error}") from error
-        records = [shaper_record(row, design) for row, design in zip(made.rows, made.designs, strict=True)]
-        bank = made.record
     design = DesignFile(
         name=machine.name,
         generator=GENERATOR,
         source=machine.source,
         law=machine.controller.law,
-        tick_s=tick_s,
+        tick_s=machine.controller.tick_s,
         number=machine.controller.number,
         plant=plant_record(machine.plant),
         drive=drive_record(machine.drive),
@@ -142,9 +145,27 @@ def design_row(row: Row, *, tick_s: float | None, contactor: bool = False) -> Sh
     return shaper_record(row, design_of(row, tick_s=tick_s, contactor=contactor))
 
 
+def _bank(
+    bank: BankSection, machine: Machine, on_row: Callable[[str], None]
+) -> tuple[list[ShaperRecord], BankRecord]:
+    """Design the rows of a bank, below a driven trolley or not."""
+    tick_s, contactor, ropes = machine.controller.tick_s, machine.drive.contactor, machine.driven_ropes
+    if ropes is not None:
+        driven = design_driven_bank(
+            bank, machine.plant, ropes, tick_s=tick_s, contactor=contactor, on_row=on_row
+        )
+        return list(driven.shapers), driven.record
+    made = design_bank(bank, machine.plant, tick_s=tick_s, contactor=contactor, on_row=on_row)
+    records = [shaper_record(row, design) for row, design in zip(made.rows, made.designs, strict=True)]
+    return records, made.record
+
+
 def _fixed_row(row: Row, machine: Machine) -> ShaperRecord:
-    """Design one row by itself."""
-    return design_row(row, tick_s=machine.controller.tick_s, contactor=machine.drive.contactor)
+    """Design one row by itself, below a driven trolley or not."""
+    tick_s, contactor, ropes = machine.controller.tick_s, machine.drive.contactor, machine.driven_ropes
+    if ropes is None:
+        return design_row(row, tick_s=tick_s, contactor=contactor)
+    return driven_record(row, design_driven_row(row, ropes, tick_s=tick_s, contactor=contactor))
 
 
 def _phase_row(row: Row, machine: Machine) -> ShaperRecord:
@@ -227,4 +248,13 @@ def plant_record(plant: PlantSection) -> PlantRecord:
 
 def drive_record(drive: DriveSection) -> DriveRecord:
     """Give the drive as it stands in the design file."""
-    return DriveRecord(**{name: getattr(drive, name) for name in DriveRecord.__dataclass_fields__})
+    values = {name: getattr(drive, name) for name in DriveRecord.__dataclass_fields__}
+    return DriveRecord(**{**values, "speed_loop": speed_loop_record(drive.speed_loop)})
+
+
+def speed_loop_record(loop: ServoDrive | None) -> SpeedLoopRecord | None:
+    """Give a speed loop as it stands in the design file."""
+    if loop is None:
+        return None
+    integral_time_s = loop.integral_time_s if math.isfinite(loop.integral_time_s) else None
+    return SpeedLoopRecord(loop.trolley_mass_kg, loop.load_mass_kg, loop.gain_n_s_m, integral_time_s)

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from swayless.machine.checks import flag, label, number, quantity
 from swayless.machine.plant_section import PlantKind
 from swayless.machine.problems import Table, shown
+from swayless.machine.speed_loop import read_speed_loop
+from swayless.plant import ServoDrive
 
 MAX_SPEED = quantity("speed", 1e-6, 1e4)
 SPEED_OR_ZERO = quantity("speed", 0.0, 1e4)
@@ -41,6 +43,8 @@ class DriveSection:
         Smallest change of the command that is taken for one.
     contactor : bool
         Whether the drive knows only 0 and full speed.
+    speed_loop : ServoDrive or None
+        What holds the trolley against the pull of the load, if the file gives it; otherwise it is ideal.
     """
 
     units: str
@@ -53,6 +57,7 @@ class DriveSection:
     inching_speed_m_s: float
     command_resolution_m_s: float
     contactor: bool = False
+    speed_loop: ServoDrive | None = None
 
 
 def read_drive(kind: PlantKind, plant: Table, drive: Table) -> DriveSection | None:
@@ -64,6 +69,7 @@ def read_drive(kind: PlantKind, plant: Table, drive: Table) -> DriveSection | No
     minimum = _speed_below("minimum_speed", drive, max_speed_m_s)
     inching = _speed_below("inching_speed", drive, max_speed_m_s)
     resolution = _speed_below("command_resolution", drive, max_speed_m_s)
+    speed_loop = read_speed_loop(drive)
     if contactor:
         _refuse_speeds_between(plant, drive)
     if max_speed_m_s is None:
@@ -79,6 +85,7 @@ def read_drive(kind: PlantKind, plant: Table, drive: Table) -> DriveSection | No
         inching_speed_m_s=inching,
         command_resolution_m_s=resolution,
         contactor=contactor,
+        speed_loop=speed_loop,
     )
 
 

@@ -28,6 +28,9 @@ from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
 from swayless.machine.problems import RefusedError, Report, Table, plain, shown
 from swayless.machine.row_section import Row, read_row
 from swayless.machine.source import read_source
+from swayless.machine.speed_loop import driven_ropes, plant_below
+from swayless.machine.true_row import check_driven_row
+from swayless.plant import DrivenRopes
 
 MAX_BYTES = 1_000_000
 _PLANT_KINDS: tuple[PlantKind, ...] = ("crane", "arm")
@@ -68,6 +71,14 @@ class Machine:
     rows: tuple[Row, ...]
     bank: BankSection | None = None
     moves: tuple[MoveSection, ...] = ()
+
+    @property
+    def driven_ropes(self) -> DrivenRopes | None:
+        """Ropes below the trolley of a speed loop; None where the trolley follows its reference exactly."""
+        plant, speed_loop = self.plant, self.drive.speed_loop
+        if speed_loop is None or plant.rope_length_m is None:
+            return None
+        return DrivenRopes(speed_loop, plant.rope_length_m, plant.damping_ratio)
 
 
 def load_machine(path: Path | str, bank_options: Mapping[str, object] | None = None) -> Machine:
@@ -162,9 +173,13 @@ def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] |
     if drive is not None and controller_table.raw.get("number") == "int32":
         check_counts(drive_table, drive)
     contactor = drive is not None and drive.contactor
+    ropes = None
+    if plant is not None and drive is not None:
+        ropes = driven_ropes(drive.speed_loop, plant, drive_table, law=law)
+        plant = plant if ropes is None else plant_below(plant, ropes)
     if law in FAMILIES_OF_LAW and plant is not None:
         check_followed(law, plant, plant_table, contactor=contactor)
-    rows = _read_rows(kind, root, plant, law, contactor=contactor)
+    rows = _read_rows(kind, root, plant, law, ropes, contactor=contactor)
     bank_table = with_options(_section(root, "bank", {}), bank_options or {})
     bank = None
     if plant is not None and "bank" in root.raw:
@@ -221,7 +236,13 @@ def _as_rows(value: object) -> list[dict[str, object]]:
 
 
 def _read_rows(
-    kind: PlantKind, root: Table, plant: PlantSection | None, law: str | None, *, contactor: bool
+    kind: PlantKind,
+    root: Table,
+    plant: PlantSection | None,
+    law: str | None,
+    ropes: DrivenRopes | None,
+    *,
+    contactor: bool,
 ) -> tuple[Row, ...]:
     seen: dict[str, int] = {}
     rows = []
@@ -244,6 +265,8 @@ def _read_rows(
                 contactor=contactor,
             )
         )
+        if ropes is not None and rows[-1] is not None:
+            check_driven_row(table, rows[-1], ropes)
         table.close()
         first = seen.setdefault(str(name).lower(), position)
         if first != position and isinstance(name, str):
