@@ -128,8 +128,8 @@ def test_on_a_measured_rope_it_is_the_nonlinear_crane_that_hoists_within_a_perce
     pairs = zip(references, lengths_in_type(settings, ropes_m[:-1]), strict=True)
     found = metres(settings, [model.step(reference, 1, length) for reference, length in pairs])
     true = HoistingCrane(damping_ratio).simulate(speeds_m_s, ropes_m, tick_s=0.01).sway_m[:-1]
-    # 86 mm at 1.2 degrees: angles cost 0.01 %, a rope that is held while it moves by 4 mm 0.15 %; where it moves,
-    # a pace that damping turns against the place by 0.03 rad counts as the load's rate. In int32 half a mm.
+    # 86 mm at 1.2 degrees: angles cost 0.01 %, a rope held while it moves by 4 mm 0.15 %; where it moves, a
+    # pace that damping turns against the place by 0.03 rad counts as the load's rate. In int32 half a mm.
     room = (0.002 if damping_ratio == 0.0 else 0.01) * np.abs(true).max()
     assert np.abs(found - true).max() < room + (0.5e-3 if number == "int32" else 0.0)
 
