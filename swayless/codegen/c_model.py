@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from swayless.codegen.c_clock import CClock
+from swayless.codegen.c_rope import c_said
 from swayless.codegen.c_state import CState
 from swayless.codegen.c_tables import CTables
 from swayless.codegen.c_types import CTypes
@@ -14,7 +15,7 @@ from swayless.codegen.clock_names import ClockNames, clock_names
 from swayless.codegen.features import Features, features_of
 from swayless.codegen.names import check_c_names
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
-from swayless.controller.measured import ROPE
+from swayless.controller.measured import ROPE, Measured
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.status import ERROR_BITS
 
@@ -77,6 +78,14 @@ class CModel:
     def literal(self, value: Any) -> str:
         """Literal of the number type."""
         return self.types.literal(value)
+
+    @property
+    def _measured(self) -> Measured:
+        return ROPE if self.settings.rope is None else self.settings.rope.measured
+
+    def said(self, text: str) -> str:
+        """Say of what is measured what a name or a comment says of a rope."""
+        return c_said(self._measured, text)
 
     @property
     def zero(self) -> str:
@@ -207,8 +216,7 @@ class CModel:
     @property
     def status_bits(self) -> list[StatusBit]:
         """The status word."""
-        bits, rope = self.settings.status_bits, self.settings.rope
-        explain = (ROPE if rope is None else rope.measured).explain
+        bits, explain = self.settings.status_bits, self._measured.explain
         return [StatusBit(bit.name or "", bit.value.bit_length() - 1, explain(bit)) for bit in bits]
 
     @property

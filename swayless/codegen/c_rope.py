@@ -1,18 +1,52 @@
-"""What the C block knows of a measured rope, and what it remembers. Not for: the phase clock.
-
-The position of an arm is read in the same way: names of the code say rope for it too, its pins do not.
-"""
+"""What the C block knows of a measured rope or position, and what it remembers. Not for: the phase clock."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from swayless.codegen.c_types import CConstant, CField, CTable, CTypes, c_table
+from swayless.controller.measured import Measured
 from swayless.controller.rope import MOST_HELD_TICKS, RopeSettings
 from swayless.controller.taps import RopeRows
 
 FROZEN_SCALE = 1_000_000
 """In int32 the way of a frozen rope is in mm and microseconds."""
+
+
+def c_said(measured: Measured, text: str) -> str:
+    """Say of a measured quantity what a name without its prefix, or a comment, says of a rope.
+
+    Parameters
+    ----------
+    measured : Measured
+        What is measured.
+    text : str
+        A name in C, or words.
+
+    Examples
+    --------
+    >>> from swayless.controller.measured import ARM_ANGLE, ROPE
+    >>> [c_said(ARM_ANGLE, name) for name in ("rope_length", "HOIST_SPEED", "LONGEST_ROPE", "rope_still")]
+    ['position', 'POSITION_SPEED', 'HIGHEST_POSITION', 'position_still']
+    >>> c_said(ROPE, "LONGEST_ROPE")
+    'LONGEST_ROPE'
+    """
+    if measured.is_length:
+        return text
+    value, speed = measured.c_name, measured.c_speed_name
+    names = (
+        ("SHORTEST_ROPE", f"LOWEST_{value.upper()}"),
+        ("LONGEST_ROPE", f"HIGHEST_{value.upper()}"),
+        ("HOIST_SPEED", speed.upper()),
+        ("hoist_speed", speed),
+        ("rope_length", value),
+        ("rope length", measured.title),
+        ("ROPE", value.upper()),
+        ("rope", value),
+    )
+    for old, new in names:
+        text = text.replace(old, new)
+    return measured.said(text)
 
 
 def rope_constants(rope: RopeSettings, types: CTypes) -> list[CConstant]:
@@ -29,18 +63,19 @@ def rope_constants(rope: RopeSettings, types: CTypes) -> list[CConstant]:
     measured, length = rope.measured, rope.measured.value_unit(is_integer=whole)
     tick, way = ("us", f"{length} times 10^6") if whole else ("s", length)
     frozen = rope.jump * FROZEN_SCALE if whole else rope.jump
-    constants = [
-        ("SHORTEST_ROPE", rope.shortest, f"{length}: {measured.c_name}"),
-        ("LONGEST_ROPE", rope.longest, f"{length}: {measured.c_name}"),
-        ("HOIST_SPEED", rope.hoist_speed, f"{length}/s: {measured.c_speed_name}"),
+    reals = [
+        ("SHORTEST_ROPE", rope.shortest, f"{length}: rope_length"),
+        ("LONGEST_ROPE", rope.longest, f"{length}: rope_length"),
+        ("HOIST_SPEED", rope.hoist_speed, f"{length}/s: hoist_speed"),
         ("ROPE_JUMP", rope.jump, f"{length}: difference of two readings that is always taken"),
-        ("ROPE_WAY_PER_TICK", rope.way_per_tick, f"{length}: {measured.c_speed_name} times tick"),
+        ("ROPE_WAY_PER_TICK", rope.way_per_tick, f"{length}: hoist_speed times tick"),
         ("ROPE_TICK", rope.tick_s, f"{tick}: tick"),
-        ("FROZEN_WAY", frozen, measured.said(f"{way}: a length that stays so long is frozen")),
+        ("FROZEN_WAY", frozen, f"{way}: a length that stays so long is frozen"),
     ]
-    anywhere = measured.said("by then the hoist may be anywhere")
-    held = CConstant("uint32_t", "MOST_HELD_TICKS", f"{MOST_HELD_TICKS}u", anywhere)
-    return [*(CConstant(types.real, name, types.literal(value), doc) for name, value, doc in constants), held]
+    constants = [CConstant(types.real, name, types.literal(value), doc) for name, value, doc in reals]
+    held = "by then the hoist may be anywhere"
+    constants.append(CConstant("uint32_t", "MOST_HELD_TICKS", f"{MOST_HELD_TICKS}u", held))
+    return [replace(c, name=c_said(measured, c.name), doc=c_said(measured, c.doc)) for c in constants]
 
 
 def rope_row_tables(rows: RopeRows | None, types: CTypes) -> list[CTable]:
@@ -85,4 +120,5 @@ def rope_members(rope: RopeSettings, types: CTypes) -> list[CField]:
         CField(types.real, "hoist_speed", "hoist speed, clamped", "", zero),
         CField("uint32_t", "held_ticks", "ticks for which no length was taken", "", "0u"),
     ]
-    return [replace(member, c_doc=rope.measured.said(member.c_doc)) for member in members]
+    measured = rope.measured
+    return [replace(m, c_name=c_said(measured, m.c_name), c_doc=c_said(measured, m.c_doc)) for m in members]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swayless.codegen.c_phase_state import phase_cells, phase_members, phase_ring, ring_length
-from swayless.codegen.c_rope import rope_members
+from swayless.codegen.c_rope import c_said, rope_members
 from swayless.codegen.c_spacing import spacing_flags, spacing_members, spacing_ring
 from swayless.codegen.c_types import CField, CTypes
 from swayless.codegen.clock_names import clock_names
@@ -118,8 +118,10 @@ class CState:
         ]
         if features.has_inching:
             names.append(("inching", "a small command passes unshaped"))
-        if features.has_rope:
-            names.append(("rope_still", "the last reading of the rope changed nothing"))
+        rope = self._settings.rope
+        if rope is not None:
+            still = ("rope_still", "the last reading of the rope changed nothing")
+            names.append((c_said(rope.measured, still[0]), c_said(rope.measured, still[1])))
         return [CField("bool", name, doc, "", "false") for name, doc in names]
 
     def _running_flags(self, features: Features) -> list[tuple[str, str]]:

@@ -100,10 +100,7 @@ def _range_line(rope: RopeSettings, per_m: int) -> str:
     if rope.measured.is_length:
         return f"Rope {shortest:.6g} to {longest:.6g} m, hoisted with at most {speed:.6g} m/s."
     unit = rope.measured.unit
-    return (
-        f"Position {shortest:.6g} to {longest:.6g} {unit}, at most {speed:.6g} {unit}/s. "
-        "Status bits and names inside say rope for it."
-    )
+    return f"Position {shortest:.6g} to {longest:.6g} {unit}, moved with at most {speed:.6g} {unit}/s."
 
 
 def phase_row_lines(row: Row) -> list[str]:
