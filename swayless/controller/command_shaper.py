@@ -1,6 +1,6 @@
-"""The command shaper: the Python reference of the generated block (`law = "fixed"`).
+"""The command shaper: the Python reference of the generated block.
 
-Per tick: check the command, see to the stops, choose the row, ramp, shape, foretell the stop. The order of
+Per tick: read the inputs, see to the stops, choose the row, ramp, shape, foretell the stop. The order of
 operations is the law: the generated C and Structured Text follow it to the last bit. Not for: text.
 """
 
@@ -8,26 +8,28 @@ from __future__ import annotations
 
 from typing import Any
 
+from swayless.controller.approach import Approach
+from swayless.controller.command_reader import CommandReader
+from swayless.controller.ends import Switches
+from swayless.controller.foretelling import Foretelling
+from swayless.controller.motion import Motion, filter_of
 from swayless.controller.output_units import OutputUnits, residual_bounds
-from swayless.controller.phase_filter import FloatPhaseFilter, PhaseFilter
-from swayless.controller.phase_filter_int32 import IntegerPhaseFilter
 from swayless.controller.pins import ShaperInput, ShaperOutput
-from swayless.controller.ramp import Glider, on_grid, ramped
 from swayless.controller.rope import Rope
 from swayless.controller.settings import ShaperSettings
-from swayless.controller.spacing_filter import SpacedFilter
-from swayless.controller.spacing_laws import spaced_filter
 from swayless.controller.status import ERROR_BITS, Status
-from swayless.controller.tap_filter import TapFilter, tap_filter
+from swayless.controller.step_mode import StepMode
+from swayless.controller.step_motion import StepMotion
+from swayless.controller.stops import Stops
+from swayless.controller.travel import Travel
+from swayless.controller.tuning import Tuning
 
-__all__ = ["CommandShaper", "ShaperInput", "ShaperOutput", "filter_of"]
+__all__ = ["CommandShaper", "ShaperInput", "ShaperOutput"]
 
 # Plain integers: the flag type is an order of magnitude slower, and this runs millions of times.
 _DISABLED, _UNSHAPED, _ROW_WAITS = int(Status.DISABLED), int(Status.UNSHAPED), int(Status.ROW_WAITS)
-_COMMAND_WAITS, _COMMAND_CLAMPED = int(Status.COMMAND_WAITS), int(Status.COMMAND_CLAMPED)
-_COMMAND_INVALID, _SELECTOR_INVALID = int(Status.COMMAND_INVALID), int(Status.SELECTOR_INVALID)
-_QUICK_STOP, _EMERGENCY_STOP = int(Status.QUICK_STOP), int(Status.EMERGENCY_STOP)
-_BELOW_MINIMUM, _INCHING = int(Status.BELOW_MINIMUM), int(Status.INCHING)
+_COMMAND_WAITS, _SELECTOR_INVALID = int(Status.COMMAND_WAITS), int(Status.SELECTOR_INVALID)
+_INCHING = int(Status.INCHING)
 _ERRORS = int(ERROR_BITS)
 
 
@@ -41,29 +43,27 @@ class CommandShaper:
     """
 
     def __init__(self, settings: ShaperSettings) -> None:
-        limits, number = settings.limits, settings.number
-        self._settings, self._limits, self._number = settings, limits, number
-        self._tables = settings.row_tables
-        self._zero = number.scalar(0)
-        self._on_grid = settings.clock is not None
-        self._by_rope = settings.bank.by_rope
-        self._last = settings.longest_lag
+        self._settings, self._by_rope = settings, settings.bank.by_rope
+        self._zero = settings.number.scalar(0)
         self._bounds = residual_bounds(settings)
         self._units = OutputUnits(settings)
-        self._speed_up = Glider(limits.acceleration_step, limits, number)
-        self._slow_down = Glider(limits.deceleration_step, limits, number)
-        self._quick_down = Glider(limits.quick_stop_step, limits, number)
+        self._foretelling = Foretelling(settings)
         self.init()
 
     def init(self) -> None:
         """Return to the state after power-on: at rest at 0, row 0, nothing latched."""
-        self._filter = filter_of(self._settings)
-        self._rope = Rope(self._settings.rope, self._number) if self._settings.rope else None
-        self._held = self._target = self._command = self._reference = self._zero
-        self._still = self._last
-        self._row = self._selected_row = self._wanted_row = 0
+        settings, operator = self._settings, self._settings.operator
+        self._filter = filter_of(settings)
+        self._rope = Rope(settings.rope, settings.number) if settings.rope else None
+        self._motion, self._stops = Motion(settings, self._filter), Stops(settings)
+        self._reader, self._tuning = CommandReader(settings), Tuning(settings)
+        approach = Approach(settings.limits, settings.number)
+        self._switches, self._travel = Switches(settings), Travel(settings, approach)
+        self._steps = StepMode(settings) if operator.steps else None
+        self._step_motion = StepMotion(settings, approach) if operator.steps else None
+        self._selected_row = self._wanted_row = 0
         self._rope_row = 1
-        self._invalid = self._quick = self._emergency = self._inching = False
+        self._row_is_locked = False
         self._status = 0
 
     def step(self, inputs: ShaperInput) -> ShaperOutput:
@@ -79,12 +79,18 @@ class CommandShaper:
         ShaperOutput
             Outputs of the tick.
         """
+        motion, stops = self._motion, self._stops
+        inputs = self._tuning.read(inputs)
         self._status = self._read_rope(inputs)
-        command = self._checked(inputs.command)
+        motion.reference = stops.watch_drive(inputs, motion.reference)
+        command = self._read_command(inputs)
         self._want_row(inputs)
-        self._latch_stops(inputs)
-        if self._emergency or self._quick:
-            self._stop()
+        hits = self._switches.shut(motion.reference)
+        stops.latch(inputs, hits=hits, is_zero=self._reader.is_zero, reference=motion.reference)
+        self._travel.read(inputs, motion)
+        self._read_steps(inputs)
+        if stops.is_latched:
+            self._stop(at_once=stops.is_halted)
         else:
             self._move(command)
         return self._outputs()
@@ -101,44 +107,12 @@ class CommandShaper:
         self._filter.turn(self._rope.length, self._rope.speed)
         return status
 
-    def _checked(self, command: Any) -> Any:
-        """Return the command as far as it is finite, within the maximum, above the minimum and new."""
-        command, valid = self._finite(command)
-        magnitude = abs(command)
-        if magnitude < self._limits.minimum_command:
-            if magnitude > 0:
-                self._status |= _BELOW_MINIMUM
-            command = self._zero
-        command = self._resolved(command)
-        self._zero_commanded = valid and command == 0
-        if not valid:
-            self._invalid = True
-        elif self._zero_commanded:
-            self._invalid = False
-        if self._invalid:
-            self._status |= _COMMAND_INVALID
-        if self._invalid or self._zero_commanded:
-            return self._zero
-        return on_grid(command, self._limits) if self._on_grid else command
-
-    def _finite(self, command: Any) -> tuple[Any, bool]:
-        """Clamp the command to the maximum; a command that is not finite becomes 0 and is not valid."""
-        limit = self._limits.max_command
-        if -limit <= command <= limit:
-            return command, True
-        if self._number.is_integer or abs(command) * self._number.scalar(0.5) < abs(command):
-            self._status |= _COMMAND_CLAMPED
-            return (limit if command > 0 else -limit), True
-        return self._zero, False
-
-    def _resolved(self, command: Any) -> Any:
-        """Hold the last command until it changes by the resolution; the maximum and 0 always arrive."""
-        resolution, magnitude = self._limits.command_resolution, abs(command)
-        if magnitude + magnitude < resolution:
-            self._held = self._zero
-        elif magnitude >= self._limits.max_command or abs(command - self._held) >= resolution:
-            self._held = command
-        return self._held
+    def _read_command(self, inputs: ShaperInput) -> Any:
+        """Read the command as far as locks, limits and switches let it count."""
+        locks = self._steps is not None and self._steps.is_running
+        command = self._reader.read(inputs.command, locks=locks)
+        self._switches.read(inputs)
+        return self._switches.limited(self._tuning.limited(command))
 
     def _want_row(self, inputs: ShaperInput) -> None:
         if inputs.selector <= self._settings.last_selector:
@@ -154,136 +128,68 @@ class CommandShaper:
             self._status |= _DISABLED
             self._wanted_row = 0
 
-    def _latch_stops(self, inputs: ShaperInput) -> None:
-        if inputs.emergency_stop:
-            self._emergency = True
-        elif self._zero_commanded:
-            self._emergency = False
-        if inputs.quick_stop:
-            self._quick = True
-        elif self._zero_commanded and self._reference == 0:
-            self._quick = False
+    def _read_steps(self, inputs: ShaperInput) -> None:
+        """Take the step buttons; a press counts while steps run, or at rest while no speed is commanded."""
+        if self._steps is None:
+            return
+        motion = self._motion
+        free = motion.is_settled and motion.command == 0 and self._reader.is_zero
+        starts = (self._steps.is_running or free) and not self._stops.is_latched
+        self._row_is_locked = self._steps.is_running
+        self._steps.read(inputs, starts=starts and self._tuning.speed_limit > 0, switches=self._switches)
 
-    def _stop(self) -> None:
-        """Take the reference to 0 and what is pending with it: the shaper rests at the reference."""
-        reach = abs(self._reference) - self._limits.quick_stop_step
-        if self._emergency or reach <= 0:
-            self._reference = self._zero
-        else:
-            self._reference = reach if self._reference > 0 else -reach
-        self._command = self._target = self._reference
-        self._still = self._last if self._reference == 0 else 0
-        self._inching = False
-        self._filter.rest(self._reference)
+    def _stop(self, *, at_once: bool) -> None:
+        self._motion.stop(at_once=at_once)
+        if self._steps is not None:
+            self._steps.cancel()
 
     def _move(self, command: Any) -> None:
-        if self._is_settled:
-            self._inching = self._wanted_row > 0 and self._inches(self._command, command)
-            self._row = 0 if self._inching else self._wanted_row
-        self._accept(command)
-        before, self._command = self._command, ramped(self._command, self._target, self._limits)
-        still = max(min(self._still + self._filter.elapsed, self._last), 0)
-        self._still = still if self._command == before else 0
-        if self._still >= self._tables[self._row].tail:
-            self._filter.rest(self._command)
-            self._reference = self._command
+        """Choose the row when settled; ramp, or step; then shape, but never towards a made stop switch."""
+        motion, steps = self._motion, self._steps
+        if not self._row_is_locked:
+            motion.choose_row(self._wanted_row, command)
+        if steps is not None and self._step_motion is not None and steps.is_running:
+            limit = self._tuning.speed_limit
+            motion.target = self._step_motion.command(motion, steps, self._switches, self._travel, limit)
+            motion.follow(motion.target)
+            if motion.is_settled and motion.command == 0:
+                steps.finish()
         else:
-            self._reference = self._filter.run(self._command, self._row)
-            if self._filter.has_pushed:
-                self._still = 0
-
-    def _accept(self, command: Any) -> None:
-        """Make the command the ramp's target, at once or, where amplitudes are negative, at rest only."""
-        wanted = command
-        if self._inching:
-            limit = self._limits.inching_command
-            wanted = min(max(command, -limit), limit)
-        if not self._tables[self._row].waits:
-            self._target = wanted
-        elif self._is_settled:
-            reverses = (self._command > 0 and wanted < 0) or (self._command < 0 and wanted > 0)
-            self._target = self._zero if reverses else wanted
-        if self._target != command:
-            self._status |= _COMMAND_WAITS
-
-    @property
-    def _is_settled(self) -> bool:
-        return self._still >= self._last
-
-    def _inches(self, command: Any, wanted: Any) -> bool:
-        limit = self._limits.inching_command
-        return bool(abs(command) <= limit and abs(wanted) <= limit and not command == wanted == 0)
-
-    def _row_at_rest(self, command: Any) -> int:
-        """Row that takes over if the command becomes 0 when settled at `command`."""
-        return 0 if self._inches(command, self._zero) else self._wanted_row
-
-    def _foretell(self) -> tuple[Any, int]:
-        """Sum of the references to come, and ticks until 0, if the command is 0 from the next tick on."""
-        if self._emergency:
-            return self._zero, 0
-        if self._quick:
-            glide = self._quick_down(self._reference, self._zero)
-            return glide.total, glide.ticks
-        if self._tables[self._row].waits and not self._is_settled and self._target != 0:
-            return self._foretell_waiting()
-        row = self._row_at_rest(self._command) if self._is_settled else self._row
-        tail = self._tables[row].tail
-        down = self._slow_down(self._command, self._zero)
-        still = 0 if down.ticks > 0 else min(self._still, tail)
-        ticks = down.ticks + self._filter.ticks_of(tail - still)
-        return self._filter.pending(row) + down.total, ticks
-
-    def _foretell_waiting(self) -> tuple[Any, int]:
-        """Foretell a stop that waits: the ramp completes, the shaper settles, only then the 0 is accepted."""
-        target = self._target
-        glider = self._speed_up if abs(target) > abs(self._command) else self._slow_down
-        rise = glider(self._command, target)
-        hold = self._last if rise.ticks > 0 else self._last - self._still
-        down = self._slow_down(target, self._zero)
-        row = self._row_at_rest(target)
-        change = self._filter.rest_sum(target, row) - self._filter.rest_sum(target, self._row)
-        total = self._filter.pending(self._row) + rise.total
-        total = total + (self._number.scalar(hold) * target)
-        total = (total + change) + down.total
-        return total, rise.ticks + hold + down.ticks + self._tables[row].tail
+            if not motion.accept(self._travel.wanted(motion, command)):
+                self._status |= _COMMAND_WAITS
+            motion.follow(self._travel.next(motion))
+        if self._switches.shut(motion.reference):
+            self._stops.is_quick = True
+            self._stop(at_once=True)
 
     def _outputs(self) -> ShaperOutput:
-        total, ticks = self._foretell()
-        stopped = self._emergency or self._quick
-        row = 0 if stopped else self._row
+        motion = self._motion
+        to_come = self._foretelling.foretell(motion, self._stops, self._steps, self._wanted_row)
+        row = 0 if self._stops.is_latched else motion.row
+        status = self._full_status()
         return ShaperOutput(
-            reference=self._reference,
-            stop_distance=self._units.distance(total),
-            stop_time_s=self._units.time_s(ticks),
-            stop_time_ticks=ticks,
+            reference=motion.reference,
+            stop_distance=self._units.distance(to_come.total),
+            stop_time_s=self._units.time_s(to_come.ticks),
+            stop_time_ticks=to_come.ticks,
             residual_bound=self._bounds[row],
-            row=self._row,
-            settled=self._is_settled,
+            row=motion.row,
+            settled=motion.is_settled,
             active=row > 0,
-            error=(self._status & _ERRORS) != 0,
-            status=self._full_status(),
+            error=(status & _ERRORS) != 0,
+            status=status,
         )
 
     def _full_status(self) -> int:
-        status = self._status
-        if self._row == 0:
+        motion = self._motion
+        status = self._status | self._reader.status | self._stops.status
+        status |= self._tuning.status | self._switches.status | self._travel.status
+        if self._steps is not None:
+            status |= self._steps.status
+        if motion.row == 0:
             status |= _UNSHAPED
-        if not self._inching and self._row != self._wanted_row:
+        if not motion.is_inching and motion.row != self._wanted_row:
             status |= _ROW_WAITS
-        if self._quick:
-            status |= _QUICK_STOP
-        if self._emergency:
-            status |= _EMERGENCY_STOP
-        if self._inching:
+        if motion.is_inching:
             status |= _INCHING
         return status
-
-
-def filter_of(settings: ShaperSettings) -> TapFilter | PhaseFilter | SpacedFilter:
-    """Make the filter of a block: of its clock, in its number type, at rest at 0."""
-    if settings.is_spaced:
-        return spaced_filter(settings)
-    if settings.clock is None:
-        return tap_filter(settings)
-    return IntegerPhaseFilter(settings) if settings.number.is_integer else FloatPhaseFilter(settings)

@@ -1,6 +1,5 @@
 """Phase clocks, and histories of their commands and ropes, for the properties of the phase clock."""
 
-import copy
 import math
 
 import numpy as np
@@ -165,13 +164,6 @@ def released(settings, last, ticks=None):
         rope_length_valid=True,
     )
     return [still] * (ticks_to_rest(settings) if ticks is None else ticks)
-
-
-def forked(shaper):
-    """An independent copy of a shaper, its rope and its filter; what never changes is shared."""
-    constants = (shaper._settings, shaper._limits, shaper._number, shaper._tables, shaper._filter._clock)
-    constants += (shaper._units, shaper._speed_up, shaper._slow_down, shaper._quick_down)
-    return copy.deepcopy(shaper, {id(value): value for value in constants})
 
 
 def rounding(settings, ticks):

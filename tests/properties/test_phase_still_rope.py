@@ -10,7 +10,6 @@ from swayless.controller import CommandShaper
 from swayless.controller.rope import MM_PER_M
 from tests.properties.phase_histories import (
     TICK_S,
-    forked,
     longest_tail,
     on_ropes,
     phase_blocks,
@@ -20,7 +19,7 @@ from tests.properties.phase_histories import (
     still_ropes,
 )
 from tests.properties.strategies import examples
-from tests.unit.controller.blocks import press, ramped_commands, run
+from tests.unit.controller.blocks import fork, press, ramped_commands, run
 
 
 def split_taps(settings, quanta):
@@ -89,7 +88,7 @@ def test_stop_distance_and_time_come_true(data):
         out = shaper.step(now)
         if k % 11:
             continue
-        stopped = run(forked(shaper), released(settings, now))
+        stopped = run(fork(shaper), released(settings, now))
         references = np.array([float(each.reference) for each in stopped])
         foretold_m = float(out.stop_distance) / (MM_PER_M if number.is_integer else 1)
         assert abs(references.sum() * TICK_S / settings.limits.units_per_m_s - foretold_m) <= slack_m

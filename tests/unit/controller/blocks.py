@@ -104,10 +104,10 @@ def press(settings, ratio, ticks, **fields):
 
 def fork(shaper):
     """An independent copy of a shaper; what never changes is shared."""
-    constants = {id(value): value for value in vars(shaper).values()}
-    constants |= {id(value): value for value in vars(shaper._filter).values() if not isinstance(value, list)}
-    del constants[id(shaper._filter)]
-    return copy.deepcopy(shaper, constants)
+    settings = shaper._settings
+    constants = (settings, settings.limits, settings.number, settings.row_tables, settings.operator)
+    constants += (settings.clock, shaper._units, shaper._foretelling, shaper._bounds)
+    return copy.deepcopy(shaper, {id(value): value for value in constants})
 
 
 def convolved(command, row_table, number):
