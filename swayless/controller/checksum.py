@@ -1,12 +1,13 @@
 """A checksum over tables by arithmetic: the same in C, Structured Text and Python, in every number type.
 
 Structured Text cannot see the bits of a real, so numbers are taken apart by exact operations: a real is
-brought below 1 by a power of two, and each product with 2**16 gives a whole digit and an exact rest; the last
-rest must be 0. Digits go into two sums modulo the prime 65537, the second one of all the first, as Fletcher
-did; no step leaves 31 bits. A changed bit of a whole number or of a real's significand changes the first sum
-by a power of two, which the prime does not divide; where a negative whole number borrows, by 65535 more or
-less, which makes no multiple of it either. Signs and exponents change several digits, and so both sums. Not
-for: security, nor for which tables a block has (`tables`).
+brought below 1 by a power of two, and each product with 2**16 gives a whole digit and an exact rest. The last
+rest must be 0, and no number but 0 may be smaller than a last digit. Digits go into two sums modulo the prime
+65537, the second one of all the first, as Fletcher did; no step leaves 31 bits. A changed bit of a whole
+number or of a real's significand changes the first sum by a power of two, which the prime does not divide;
+where a negative whole number borrows, by 65535 more or less, which makes no multiple of it either. Signs and
+exponents change several digits, and so both sums. Not for: security, nor for which tables a block has
+(`tables`).
 
 References
 ----------
@@ -33,8 +34,8 @@ MODULUS = BASE + 1
 WHOLE_DIGITS = 2
 """Digits of a whole number of 32 bits."""
 
-MOST_DIGITS = 12
-"""Digits of a real, at most: numbers of one table are within 2**128 of each other."""
+MOST_DIGITS = 7
+"""Digits of a real, at most: 112 bits, 53 of them for the smallest double. Nothing then leaves the type."""
 
 
 class Checksum(NamedTuple):
@@ -64,6 +65,11 @@ class Table:
     numbers: tuple[Any, ...]
     limit: Any
     digits: int
+
+    @property
+    def least(self) -> Any:
+        """Size of the last digit of a real: smaller ones but 0 are none of the table."""
+        return self.limit / type(self.limit)(BASE) ** self.digits
 
 
 def whole_table(name: str, numbers: Iterable[Any]) -> Table:
@@ -177,7 +183,7 @@ def _whole_digits(number: int) -> Iterator[int]:
 
 def _real_digits(number: Any, table: Table) -> list[int] | None:
     """Take a real apart; None if it is none of the table's kind."""
-    if not -table.limit < number < table.limit:
+    if not -table.limit < number < table.limit or (number != 0 and abs(number) < table.least):
         return None
     rest, digits = number * (1 / table.limit), []
     for _ in range(table.digits):

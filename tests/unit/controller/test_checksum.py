@@ -38,9 +38,9 @@ def changed(table, flips):
     ("table", "flips"),
     [
         (real_table("a", [1.0, 0.2625, -0.7, 2.0**-53], DOUBLE), doubles_with_one_bit_changed),
-        (real_table("b", [3.0, 8.8392, 3e-5, 1e-12], DOUBLE), doubles_with_one_bit_changed),
+        (real_table("b", [3.0, 0.0, 8.8392, 3e-5, 1e-12], DOUBLE), doubles_with_one_bit_changed),
         (
-            real_table("c", [np.float32(x) for x in (1.0, 0.1, 8.84, -3e-5)], FLOAT),
+            real_table("c", [np.float32(x) for x in (1.0, 0.1, 0.0, 8.84, -3e-5)], FLOAT),
             floats_with_one_bit_changed,
         ),
         (
@@ -53,7 +53,7 @@ def changed(table, flips):
 def test_no_single_bit_of_any_number_changes_unseen(table, flips):
     found = checksum([table])
     for other in changed(table, flips):
-        assert checksum([other]) != found
+        assert checksum([other]) != found or other.numbers == table.numbers  # the sign of a 0 is none
 
 
 def test_the_digits_of_a_real_are_exact_and_so_a_sum_is_the_same_in_both_real_types():
