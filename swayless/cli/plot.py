@@ -176,6 +176,11 @@ def _sensitivity(
         f"--over rope-length: the design {design.name} is of an arm, which hangs on no rope"
         for design in designs
         if over is Over.rope_length and design.plant.kind == "arm"
+    ] + [
+        f"--over rope-length: the design {design.name} is for a drive that feels the load, below which no rope"
+        " has the frequency of a pendulum: plot over frequency"
+        for design in designs
+        if over is Over.rope_length and design.drive.speed_loop is not None
     ]
     limits = None
     if span is not None:
@@ -242,8 +247,13 @@ def sensitivity(design: DesignFile) -> Figure:
     """Draw what the rows of a design leave, on the axis of its machine."""
     from swayless.report import sensitivity_figure
 
-    over: Literal["frequency", "rope_length"] = "rope_length" if design.plant.kind == "crane" else "frequency"
+    over: Literal["frequency", "rope_length"] = "rope_length" if _hangs_free(design) else "frequency"
     return sensitivity_figure(plotted(design), over=over)
+
+
+def _hangs_free(design: DesignFile) -> bool:
+    """Whether ropes have the frequencies of pendulums, by which figures turn one into the other."""
+    return design.plant.kind == "crane" and design.drive.speed_loop is None
 
 
 def bank(design: DesignFile) -> Figure:
@@ -257,7 +267,7 @@ def bank(design: DesignFile) -> Figure:
             "the design is for one frequency, and a bank figure needs a range: plot sensitivity instead"
         )
     switches_hz = () if design.bank is None else design.bank.switching_frequency_hz
-    if plant.kind == "crane":
+    if _hangs_free(design):
         from swayless.plant import pendulum_rope_length_m
 
         low_hz, high_hz = plant.frequency_hz

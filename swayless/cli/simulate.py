@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from swayless.cli.simulated_case import Simulation
+    from swayless.controller import ShaperSettings
     from swayless.machine import DesignFile
     from swayless.machine.move_section import MoveSection
 
@@ -92,11 +93,12 @@ def simulate(
     with progress() as show:
         design, of_file = _design(file, show)
         settings = shaper_settings(design)
+        pendulum = _pendulum_settings(design)
         moves, within_m = _moves(design, settings.last_selector, of_file, spoken, row, within)
         simulations = []
         for number, asked in enumerate(moves, start=1):
             show(f"simulating move {number}")
-            simulations.append(simulate_move(design, settings, asked))
+            simulations.append(simulate_move(design, settings, asked, pendulum))
         written = [] if output is None else _write(output, design, simulations, show)
     if json:
         documents = [simulation_document(design, simulation, within_m) for simulation in simulations]
@@ -118,6 +120,16 @@ def _design(file: Path, show: Callable[[str], None]) -> tuple[DesignFile, tuple[
         return load_design(file), ()
     machine = load_machine(file)
     return design_machine(machine, on_row=lambda name: show(f"designing {name}")), machine.moves
+
+
+def _pendulum_settings(design: DesignFile) -> ShaperSettings | None:
+    """Give the block that a driven crane would have if its drive did not feel the load; None for others."""
+    if design.drive.speed_loop is None:
+        return None
+    from swayless.machine.as_pendulum import pendulum_design
+    from swayless.machine.running import shaper_settings
+
+    return shaper_settings(pendulum_design(design))
 
 
 def _moves(

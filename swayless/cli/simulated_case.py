@@ -30,11 +30,14 @@ class Contender:
         Position of the selector; None for a ramp without the block.
     reference_m_s : ndarray, shape (ticks,)
         For the drive; 0 from there on.
+    for_pendulum : bool
+        Whether the row was designed as if the drive did not feel the load, which it does.
     """
 
     name: str
     knob: int | None
     reference_m_s: FloatArray
+    for_pendulum: bool = False
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from swayless.plant.pendulum import STANDARD_GRAVITY_M_S2
-from swayless.plant.simulation import FlexibleArm, HoistingCrane, HookAndLoad, Trajectory
+from swayless.plant.servo_drive import ServoDrive
+from swayless.plant.simulation import DrivenCrane, FlexibleArm, HoistingCrane, HookAndLoad, Trajectory
 from swayless.plant.simulation.trajectory import FloatArray
 
 if TYPE_CHECKING:
-    from swayless.machine.design_document import PlantRecord
+    from swayless.machine import DesignFile
+    from swayless.machine.design_document import PlantRecord, SpeedLoopRecord
 
 Simulate: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray], Trajectory]
 """Takes references in m/s, (cases, ticks), ropes in m, one longer, and the push of the wind, (ticks,)."""
@@ -57,27 +59,43 @@ class ArmMove(Trajectory):
         return np.asarray(np.sqrt(STANDARD_GRAVITY_M_S2 / self.rope_length_m))
 
 
-def simulated_plant(plant: PlantRecord, tick_s: float) -> Simulate:
+def simulated_plant(design: DesignFile, tick_s: float) -> Simulate:
     """Choose the plant that a design is for, and fix its tick.
 
     Parameters
     ----------
-    plant : PlantRecord
-        From the design file.
+    design : DesignFile
+        Of a machine or of one mode.
     tick_s : float
         Of the controller, > 0.
     """
-    pendulum = plant.double_pendulum
-    if plant.kind == "crane" or pendulum is not None:
-        crane = (
-            HoistingCrane(plant.damping_ratio)
-            if pendulum is None
-            else HookAndLoad(
-                pendulum.sling_length_m, pendulum.hook_mass_kg, pendulum.load_mass_kg, plant.damping_ratio
-            )
-        )
+    plant = design.plant
+    if plant.kind in {"crane", "double_pendulum"}:
+        crane = _crane(plant, design.drive.speed_loop)
         return lambda reference, rope, wind: crane.simulate(reference, rope, tick_s=tick_s, wind_m_s2=wind)
     return lambda reference, rope, _: _arm(reference, rope, plant.damping_ratio, tick_s)
+
+
+def _crane(
+    plant: PlantRecord, speed_loop: SpeedLoopRecord | None
+) -> HoistingCrane | HookAndLoad | DrivenCrane:
+    """Choose a crane: with hook and sling, below a driven trolley, or below one that follows exactly."""
+    pendulum = plant.double_pendulum
+    if pendulum is not None:
+        return HookAndLoad(
+            pendulum.sling_length_m, pendulum.hook_mass_kg, pendulum.load_mass_kg, plant.damping_ratio
+        )
+    if speed_loop is not None:
+        return DrivenCrane(servo_drive(speed_loop), plant.damping_ratio)
+    return HoistingCrane(plant.damping_ratio)
+
+
+def servo_drive(speed_loop: SpeedLoopRecord) -> ServoDrive:
+    """Give the drive of a speed loop in a design file."""
+    integral_time_s = math.inf if speed_loop.integral_time_s is None else speed_loop.integral_time_s
+    return ServoDrive(
+        speed_loop.trolley_mass_kg, speed_loop.load_mass_kg, speed_loop.gain_n_s_m, integral_time_s
+    )
 
 
 def _arm(

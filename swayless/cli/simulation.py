@@ -32,11 +32,16 @@ if TYPE_CHECKING:
     from swayless.plant.simulation.trajectory import FloatArray
 
 
+FOR_PENDULUM = "for a pendulum"
+"""What is said of rows that were designed as if the drive did not feel the load."""
+
 MOST_ONE_BY_ONE = 10
 """Cases up to which plants run faster one by one, in plain floats, than together in arrays."""
 
 
-def simulate_move(design: DesignFile, settings: ShaperSettings, move: MoveSection) -> Simulation:
+def simulate_move(
+    design: DesignFile, settings: ShaperSettings, move: MoveSection, pendulum: ShaperSettings | None = None
+) -> Simulation:
     """Run one move.
 
     Parameters
@@ -47,6 +52,8 @@ def simulate_move(design: DesignFile, settings: ShaperSettings, move: MoveSectio
         Its block.
     move : MoveSection
         What is asked for.
+    pendulum : ShaperSettings or None
+        Of a driven crane: the block that it would have without a speed loop, to run beside.
 
     Raises
     ------
@@ -68,7 +75,7 @@ def simulate_move(design: DesignFile, settings: ShaperSettings, move: MoveSectio
     press = press_of(move, speed_m_s, design.drive, settle_s, tick_s)
     fields = [
         (site, contender)
-        for site, contenders in _contenders(design, settings, move, speed_m_s, press, sites)
+        for site, contenders in _contenders(design, settings, pendulum, move, speed_m_s, press, sites)
         for contender in contenders
     ]
     cases = _run(design, settings, fields, move, slowest_s)
@@ -111,6 +118,7 @@ def _lengths(site: Site) -> list[float]:
 def _contenders(
     design: DesignFile,
     settings: ShaperSettings,
+    pendulum: ShaperSettings | None,
     move: MoveSection,
     speed_m_s: float,
     press: Press,
@@ -120,13 +128,14 @@ def _contenders(
     known: list[Contender] = []
     for site in sites:
         if settings.rope is not None or not known:
-            known = _on_site(design, settings, move, speed_m_s, press, site)
+            known = _on_site(design, settings, pendulum, move, speed_m_s, press, site)
         yield site, known
 
 
 def _on_site(
     design: DesignFile,
     settings: ShaperSettings,
+    pendulum: ShaperSettings | None,
     move: MoveSection,
     speed_m_s: float,
     press: Press,
@@ -138,8 +147,18 @@ def _on_site(
         Contender(name, knob, _to_rest(shaped_reference(settings, knob, press, speed_m_s, _rope(site))))
         for knob, name in zip((0, *knobs), names, strict=True)
     ]
+    naive = [
+        Contender(
+            f"{item.name} {FOR_PENDULUM}",
+            item.knob,
+            _to_rest(shaped_reference(pendulum, item.knob, press, speed_m_s, _rope(site))),
+            for_pendulum=True,
+        )
+        for item in shaped[1:]
+        if pendulum is not None and item.knob is not None
+    ]
     if design.drive.contactor:
-        return shaped
+        return [*shaped, *naive]
     way_ticks = round(float(shaped[0].reference_m_s.sum()) / speed_m_s)
     held = Press(press.first, press.first + way_ticks)
     ramps = {max(1, item.reference_m_s.size - press.last): None for item in shaped[1:]}
@@ -149,7 +168,7 @@ def _on_site(
     ]
     ramped = design.drive.acceleration_m_s2 is not None or design.drive.deceleration_m_s2 is not None
     jump = [Contender("jump, no ramp", None, plain_ramp(held, 1, speed_m_s))] if ramped else []
-    return [*jump, *shaped, *plain]
+    return [*jump, *shaped, *naive, *plain]
 
 
 def _row_name(design: DesignFile, settings: ShaperSettings, knob: int) -> str:
@@ -187,7 +206,7 @@ def _run(
         row[: contender.reference_m_s.size] = contender.reference_m_s
     time_s = tick_s * np.arange(ticks + 1.0)
     ropes = np.array([rope_of(*_rope(site), time_s) for site, _ in fields])
-    simulate, wind = simulated_plant(design.plant, tick_s), _push(move.wind, ticks, tick_s)
+    simulate, wind = simulated_plant(design, tick_s), _push(move.wind, ticks, tick_s)
     if len(fields) > MOST_ONE_BY_ONE:
         together = simulate(references, ropes, wind)
         runs = [case_until(together, case, ticks) for case in range(len(fields))]

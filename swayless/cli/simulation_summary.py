@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swayless.cli.console import per_cent, print_line, print_table
+from swayless.cli.driven_summary import gain_document, gain_lines
 from swayless.plant import pendulum_frequency_hz
 
 if TYPE_CHECKING:
@@ -53,6 +54,8 @@ def print_simulation(design: DesignFile, simulation: Simulation, within_m: float
     )
     rows = [_row(design, case, within_m) for case in simulation.cases]
     print_table(f"{design.name}: {move_text(simulation)}", heads, rows)
+    for line in gain_lines(design, simulation):
+        print_line(line)
 
 
 def print_note(design: DesignFile, within_m: float) -> None:
@@ -132,6 +135,7 @@ def simulation_document(design: DesignFile, simulation: Simulation, within_m: fl
         "pressed_s": simulation.pressed_s,
         "held_s": simulation.held_s,
         "cases": [_case_document(design, case, within_m) for case in simulation.cases],
+        **gain_document(design, simulation),
     }
 
 
@@ -152,6 +156,7 @@ def _case_document(design: DesignFile, case: Case, within_m: float) -> dict[str,
     return {
         "moved_by": case.contender.name,
         "knob": case.contender.knob,
+        **({"for_pendulum": True} if case.contender.for_pendulum else {}),
         "rope_length_m": None if _is_arm(design) else rope,
         "frequency_hz": round(pendulum_frequency_hz(site.length_m), _DIGITS) if _is_arm(design) else None,
         **{key: None if value is None else round(value, _DIGITS) for key, value in numbers.items()},

@@ -29,7 +29,7 @@ def machine_need(
     Raises
     ------
     DesignError
-        If the machine has more than one mode on each rope.
+        If the machine has more than one mode on each rope, or a drive that feels the load.
     """
     from swayless.design import DEFAULT_TOLERANCE
     from swayless.design.tradeoff import Need
@@ -41,6 +41,11 @@ def machine_need(
         raise DesignError(
             f"{machine.source}: [crane] sling_length: candidates are compared for one mode, and a double "
             "pendulum has two; leave sling and masses out to compare for a single pendulum"
+        )
+    if drive.speed_loop is not None:
+        raise DesignError(
+            f"{machine.source}: [drive] trolley_mass: candidates are compared at one damping ratio, and below"
+            " a speed loop it changes with the rope; leave masses and speed loop out to compare for a pendulum"
         )
     return Need(
         band=Band(*plant.frequency_hz),
