@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from swayless.cli.verify import CodeFiles
     from swayless.controller import ShaperSettings
     from swayless.machine import DesignFile, Machine
+    from swayless.machine.machine_file import Axes
     from swayless.verify import Verdict
 
 DirectoryOption = Annotated[
@@ -32,19 +33,32 @@ NoVerifyOption = Annotated[bool, typer.Option("--no-verify", help="Do not compil
 
 
 class Product(NamedTuple):
-    """What a build makes, all of it in memory: the design, its block, its code, and how to draw its figures.
+    """What a build makes of one axis, in memory: design, block, code, and how to draw its figures.
 
-    `origin` says how the design stands to the stored one, `missing` why a language is left out. Files are the
-    design and the code; both they and the figures go by their path in the output directory.
+    `axis` is empty where the machine has only one. `origin` says how the design stands to the stored one,
+    `missing` why a language is left out. Figures go by their path in the output directory.
     """
 
+    axis: str
     design: DesignFile
     origin: str
     settings: ShaperSettings
     code: CodeFiles
     missing: dict[str, str]
-    files: dict[str, bytes]
     figures: dict[str, Callable[[], Figure]]
+
+
+class Products(NamedTuple):
+    """What a build makes of all axes; files are designs, code and wiring by path in the output directory."""
+
+    axes: tuple[Product, ...]
+    wiring: CodeFiles
+    files: dict[str, bytes]
+
+    @property
+    def figures(self) -> dict[str, Callable[[], Figure]]:
+        """Figures of all axes."""
+        return {path: draw for product in self.axes for path, draw in product.figures.items()}
 
     @property
     def paths(self) -> list[str]:
@@ -76,37 +90,48 @@ def build(
     from swayless.cli.console import failure_in_json, progress
     from swayless.cli.output_directory import check_directory, write_files
     from swayless.cli.verify import all_equal
-    from swayless.machine import load_machine
+    from swayless.machine.machine_file import load_axes
 
-    described = load_machine(machine)
+    described = load_axes(machine)
     directory = output or Path(machine.stem)
     with progress() as show, failure_in_json(wanted=json):
-        product = _product(described, directory, show)
+        products = _products(described, directory, show)
         if check:
-            _check(directory, product, json=json)
+            _check(directory, products, json=json)
             return
-        check_directory(directory, product.paths)
-        verdicts = [] if no_verify else _proof(product, compiler, soak_ticks, show)
+        check_directory(directory, products.paths)
+        verdicts = [] if no_verify else _proof(products, compiler, soak_ticks, show)
         if all_equal(verdicts):
             show("drawing figures")
-            write_files(directory, product.files | _drawn(product.figures))
-    _report(product, directory, verdicts, json=json)
+            write_files(directory, products.files | _drawn(products.figures))
+    _report(products, directory, verdicts, json=json)
     if not all_equal(verdicts):
         raise typer.Exit(1)
 
 
+def _products(axes: Axes, directory: Path, show: Callable[[str], None]) -> Products:
+    from swayless.cli.wiring import wiring
+    from swayless.machine import save_text
+
+    made = tuple(_product(machine, directory, show) for machine in axes.machines)
+    wired = wiring(axes.name, [(product.design, product.settings) for product in made])
+    files = {
+        f"{product.design.name}.design.json": save_text(product.design).encode("ascii") for product in made
+    }
+    for code in (*(product.code for product in made), wired):
+        for target, parts in code.items():
+            files |= {f"{target}/{file.path}": file.text.encode("ascii") for file in parts}
+    return Products(made, wired, files)
+
+
 def _product(machine: Machine, directory: Path, show: Callable[[str], None]) -> Product:
     from swayless.cli.verify import generated
-    from swayless.machine import save_text
     from swayless.machine.running import shaper_settings
 
     design, origin = _design(machine, directory, show)
     settings = shaper_settings(design)
     code, missing = generated(design, settings)
-    files = {f"{design.name}.design.json": save_text(design).encode("ascii")}
-    for target, made in code.items():
-        files |= {f"{target}/{file.path}": file.text.encode("ascii") for file in made}
-    return Product(design, origin, settings, code, missing, files, _figures(design))
+    return Product(machine.axis, design, origin, settings, code, missing, _figures(design, machine.axis))
 
 
 def _design(machine: Machine, directory: Path, show: Callable[[str], None]) -> tuple[DesignFile, str]:
@@ -130,14 +155,15 @@ def _design(machine: Machine, directory: Path, show: Callable[[str], None]) -> t
     return fresh, f"replaces the stored one, {counted(len(changes), 'difference')}, the first: {changes[0]}"
 
 
-def _figures(design: DesignFile) -> dict[str, Callable[[], Figure]]:
+def _figures(design: DesignFile, axis: str) -> dict[str, Callable[[], Figure]]:
     from swayless.cli.plot import FIGURE_PRESS_S, bank, response, sensitivity
 
-    figures: dict[str, Callable[[], Figure]] = {"figures/sensitivity.svg": partial(sensitivity, design)}
+    folder = f"figures/{axis}" if axis else "figures"
+    figures: dict[str, Callable[[], Figure]] = {f"{folder}/sensitivity.svg": partial(sensitivity, design)}
     if design.law == "fixed" and design.plant.frequency_hz[0] < design.plant.frequency_hz[1]:
-        figures["figures/bank.svg"] = partial(bank, design)
+        figures[f"{folder}/bank.svg"] = partial(bank, design)
     for row in range(1, len(design.shapers) + 1):
-        figures[f"figures/response-{row}.svg"] = partial(response, design, row, FIGURE_PRESS_S)
+        figures[f"{folder}/response-{row}.svg"] = partial(response, design, row, FIGURE_PRESS_S)
     return figures
 
 
@@ -148,56 +174,81 @@ def _drawn(figures: dict[str, Callable[[], Figure]]) -> dict[str, bytes]:
 
 
 def _proof(
-    product: Product, compiler: str | None, soak_ticks: int, show: Callable[[str], None]
+    products: Products, compiler: str | None, soak_ticks: int, show: Callable[[str], None]
 ) -> list[Verdict]:
     from swayless.cli.verify import verdicts_of
+    from swayless.cli.wiring import wiring_verdicts
     from swayless.errors import ToolMissingError
 
     try:
-        return verdicts_of(
-            product.design,
-            product.settings,
-            product.code,
-            compiler=compiler,
-            soak_ticks=soak_ticks,
-            show=show,
-        )
+        verdicts = [
+            verdict
+            for product in products.axes
+            for verdict in verdicts_of(
+                product.design,
+                product.settings,
+                product.code,
+                compiler=compiler,
+                soak_ticks=soak_ticks,
+                show=show,
+                axis=product.axis,
+            )
+        ]
+        blocks = [(product.design, product.settings, product.code) for product in products.axes]
+        return verdicts + wiring_verdicts(blocks, products.wiring, compiler=compiler, show=show)
     except ToolMissingError as error:
         raise ToolMissingError(f"{error}; --no-verify builds without the proof") from error
 
 
-def _check(directory: Path, product: Product, *, json: bool) -> None:
+def _check(directory: Path, products: Products, *, json: bool) -> None:
     from swayless.cli.console import counted, print_json
     from swayless.cli.output_directory import differences
 
-    found = differences(directory, product.files, present=product.figures)
+    found = differences(directory, products.files, present=products.figures)
     if json:
-        document = {"directory": str(directory), "checked": True, "files": product.paths}
+        document = {"directory": str(directory), "checked": True, "files": products.paths}
         print_json(document | {"differences": found})
     else:
-        files, figures = counted(len(product.files), "file"), counted(len(product.figures), "figure")
+        files, figures = counted(len(products.files), "file"), counted(len(products.figures), "figure")
         for line in found or [f"{directory}: {files} as generated, {figures} there"]:
             typer.echo(line)
     if found:
         raise typer.Exit(1)
 
 
-def _report(product: Product, directory: Path, verdicts: Sequence[Verdict], *, json: bool) -> None:
+def _report(products: Products, directory: Path, verdicts: Sequence[Verdict], *, json: bool) -> None:
     from swayless.cli.console import counted, print_json
-    from swayless.cli.summary import print_summary, summary_document
-    from swayless.cli.verify import all_equal, verdict_document, verdict_lines
+    from swayless.cli.summary import print_summary
+    from swayless.cli.verify import all_equal, verdict_lines
 
-    written = product.paths if all_equal(verdicts) else []
+    written = products.paths if all_equal(verdicts) else []
     if json:
-        place = {"directory": str(directory), "files": written, "design": product.origin}
-        verdict = verdict_document(verdicts, product.missing)
-        print_json(summary_document(product.design, product.settings) | place | verdict)
+        print_json(_document(products, directory, written, verdicts))
         return
-    print_summary(product.design, product.settings)
-    for line in verdict_lines(verdicts, product.missing):
+    for product in products.axes:
+        print_summary(product.design, product.settings)
+    for line in verdict_lines(verdicts, products.axes[0].missing):
         typer.echo(line)
     if not verdicts:
         typer.echo("verified: not run (--no-verify)")
-    if product.origin != "new":
-        typer.echo(f"design: {product.origin}")
+    for product in products.axes:
+        if product.origin != "new":
+            typer.echo(f"{f'{product.axis} ' if product.axis else ''}design: {product.origin}")
     typer.echo(f"{directory}: {counted(len(written), 'file') if written else 'nothing'} written")
+
+
+def _document(
+    products: Products, directory: Path, written: list[str], verdicts: Sequence[Verdict]
+) -> dict[str, Any]:
+    """Give the report for machines: of one axis at the top, of several in a list."""
+    from swayless.cli.summary import summary_document
+    from swayless.cli.verify import verdict_document
+
+    summaries = [
+        summary_document(product.design, product.settings) | {"design": product.origin}
+        for product in products.axes
+    ]
+    axes = [{"axis": product.axis} | each for product, each in zip(products.axes, summaries, strict=True)]
+    found = summaries[0] if len(summaries) == 1 else {"axes": axes}
+    place = {"directory": str(directory), "files": written}
+    return found | place | verdict_document(verdicts, products.axes[0].missing)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from swayless.cli.design_options import AmplitudesOption, ImpulsesOption, OutputOption
-from swayless.cli.options import JsonOption, MachineArgument
+from swayless.cli.options import AxisOption, JsonOption, MachineArgument
 
 if TYPE_CHECKING:
     from swayless.machine import Machine
@@ -49,6 +49,7 @@ def bank(
     impulses: ImpulsesOption = None,
     hysteresis: HysteresisOption = None,
     label_step: LabelStepOption = None,
+    axis: AxisOption = None,
     output: OutputOption = None,
     json: JsonOption = False,
 ) -> None:
@@ -79,7 +80,7 @@ def bank(
         "hysteresis": hysteresis,
         "label_step": label_step,
     }
-    described = _machine(machine, {key: value for key, value in given.items() if value is not None})
+    described = _machine(machine, {key: value for key, value in given.items() if value is not None}, axis)
     with progress() as show:
         made = design_machine(described, on_row=lambda name: show(f"designing {name}"))
     text = save_text(made)
@@ -94,20 +95,20 @@ def bank(
         typer.echo(f"{output}: written")
 
 
-def _machine(path: Path, options: dict[str, str]) -> Machine:
+def _machine(path: Path, options: dict[str, str], axis: str | None) -> Machine:
     """Load a machine with a bank: its own, or that of the options in the place of its rows."""
     from swayless.cli.option_table import refuse
     from swayless.errors import FileError
     from swayless.machine import load_machine
 
     if not options:
-        described = load_machine(path)
+        described = load_machine(path, axis=axis)
         if described.bank is None:
             hint = "say which bank to design, for instance --tolerance '5 %' --duration 3.0"
             refuse([f"{path}: has rows of its own and no [bank]; {hint}"])
         return described
     try:
-        return load_machine(path, options)
+        return load_machine(path, options, axis=axis)
     except FileError as error:
         raise FileError([_OPTION.sub(_as_option, problem) for problem in error.problems]) from error
 

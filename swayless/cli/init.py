@@ -20,6 +20,7 @@ class Example(StrEnum):
     srtc_gantry_bank = "srtc-gantry-bank"
     double_pendulum = "double-pendulum"
     hoisting_gantry = "hoisting-gantry"
+    two_axis_crane = "two-axis-crane"
 
 
 def init(
@@ -37,8 +38,8 @@ def init(
     """Write a commented machine file to start from.
 
     The examples: a 15-ton gantry crane (double, for C and Structured Text), a workshop crane with a joystick
-    (float), a flexible arm (int32, for C only), the gantry crane with a bank that covers all its ropes, and a
-    crane whose load hangs on a sling below the hook.
+    (float), a flexible arm (int32, for C only), the gantry crane with a bank that covers all its ropes, a
+    crane whose load hangs on a sling below the hook, one that hoists while it travels, and one with two axes.
 
     Examples
     --------

@@ -77,3 +77,10 @@ DesignArgument = Annotated[
 MachineArgument = Annotated[
     Path, typer.Argument(metavar="MACHINE.toml", help="A machine file.", show_default=False)
 ]
+
+AxisOption = Annotated[
+    str | None,
+    typer.Option(
+        "--axis", metavar="NAME", help="Which axis, of a machine file with axes.", show_default=False
+    ),
+]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from swayless.cli.options import JsonOption
+from swayless.cli.options import AxisOption, JsonOption
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -96,6 +96,7 @@ def plot(
     definition: DefinitionOption = None,
     press: PressOption = None,
     row: RowOption = None,
+    axis: AxisOption = None,
     json: JsonOption = False,
 ) -> None:
     """Draw sensitivity, a response, a whole bank, or what robustness costs.
@@ -116,12 +117,17 @@ def plot(
 
     check_place(output)
     _refuse_strangers(
-        kind, {"over": over, "span": span, "definition": definition}, {"press": press, "row": row}
+        kind,
+        {
+            Kind.sensitivity: {"over": over, "span": span, "definition": definition},
+            Kind.response: {"press": press, "row": row},
+            Kind.tradeoff: {"axis": axis},
+        },
     )
     if kind is Kind.tradeoff:
         from swayless.cli.tradeoff import tradeoff
 
-        figure = tradeoff(_only(kind, files))
+        figure = tradeoff(_only(kind, files), axis)
     elif kind is Kind.sensitivity:
         figure = _sensitivity(_loaded(files), over or Over.frequency, span, definition or Definition.kriikku)
     else:
@@ -133,11 +139,10 @@ def plot(
         typer.echo(f"{output}: written")
 
 
-def _refuse_strangers(kind: Kind, sensitivity: dict[str, Any], response: dict[str, Any]) -> None:
+def _refuse_strangers(kind: Kind, owners: dict[Kind, dict[str, Any]]) -> None:
     """Refuse options that belong to another kind of figure: they would change nothing."""
     from swayless.cli.option_table import refuse
 
-    owners = {Kind.sensitivity: sensitivity, Kind.response: response}
     refuse(
         [
             f"--{name}: belongs to plot {owner.value}, not to plot {kind.value}"

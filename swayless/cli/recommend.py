@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from swayless.cli.options import JsonOption
+from swayless.cli.options import AxisOption, JsonOption
 
 if TYPE_CHECKING:
     from swayless.design.tradeoff import Need, Recommendation, Refusal
@@ -44,6 +44,7 @@ def recommend(
     machine: MachineArgument,
     tolerance: ToleranceOption = "5 %",
     longest_overtravel: OvertravelOption = None,
+    axis: AxisOption = None,
     json: JsonOption = False,
 ) -> None:
     """Rank every family, robust shaper, bank and plain ramp for a machine, and say why.
@@ -69,7 +70,7 @@ def recommend(
     ratio = options.take("tolerance", TOLERANCE, None)
     limit_m = options.take("longest_overtravel", LENGTH, None)
     refuse(problems)
-    described = load_machine(machine)
+    described = load_machine(machine, axis=axis)
     need = machine_need(described, tolerance=ratio, longest_overtravel_m=limit_m)
     with progress() as show:
         ranked, refused = ranked_for(need, on_candidate=lambda name: show(f"designing {name}"))

@@ -64,10 +64,10 @@ def _ramp_s(speed_m_s: float, rate_m_s2: float | None) -> float:
     return 0.0 if rate_m_s2 is None else speed_m_s / rate_m_s2
 
 
-def tradeoff(path: Path) -> Figure:
+def tradeoff(path: Path, axis: str | None = None) -> Figure:
     """Draw robustness against duration and overtravel for the machine of a file."""
     from swayless.machine import load_machine
     from swayless.report import tradeoff_figure
 
-    machine = load_machine(path)
+    machine = load_machine(path, axis=axis)
     return tradeoff_figure(machine.name, machine_need(machine))

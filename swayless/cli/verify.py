@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
@@ -48,22 +49,38 @@ def verify(
     """
     from swayless.cli.console import failure_in_json, print_json, print_table, progress
     from swayless.cli.generate import left_out
+    from swayless.cli.wiring import wiring_verdicts
     from swayless.machine import load_design
     from swayless.machine.running import shaper_settings
 
+    wired: CodeFiles = {}
     if path.is_dir():
         if number is not None:
             raise OptionError(["--number: files in a directory have their number type; give a design file"])
-        design, files = _stored(path)
-        settings = shaper_settings(design)
+        blocks, wired = _stored(path)
+        files = blocks[0][2]
         missing = {name: f"not verified, there is none in {path / name}" for name in files if not files[name]}
-        missing |= left_out(settings)
+        missing |= left_out(blocks[0][1])
     else:
         design = load_design(path)
         settings = shaper_settings(design, number=number and number.value)
         files, missing = generated(design, settings)
+        blocks = [(design, settings, files)]
     with progress() as show, failure_in_json(wanted=json):
-        verdicts = verdicts_of(design, settings, files, compiler=compiler, soak_ticks=soak_ticks, show=show)
+        verdicts = [
+            verdict
+            for design, settings, files in blocks
+            for verdict in verdicts_of(
+                design,
+                settings,
+                files,
+                compiler=compiler,
+                soak_ticks=soak_ticks,
+                show=show,
+                axis=design.name if len(blocks) > 1 else "",
+            )
+        ]
+        verdicts += wiring_verdicts(blocks, wired, compiler=compiler, show=show)
     if json:
         print_json(verdict_document(verdicts, missing))
     else:
@@ -105,6 +122,7 @@ def verdicts_of(
     compiler: str | None,
     soak_ticks: int,
     show: Callable[[str], None],
+    axis: str = "",
 ) -> list[Verdict]:
     """Verify generated files against the reference of their design.
 
@@ -122,11 +140,13 @@ def verdicts_of(
         Length of the soak of the C.
     show : callable
         Shows progress.
+    axis : str
+        Which axis the design is of; empty where the machine has only one.
     """
     from swayless.cli.generate import provenance
     from swayless.verify import find_compiler, verify_block
 
-    return list(
+    verdicts = list(
         verify_block(
             settings,
             provenance(design),
@@ -137,6 +157,7 @@ def verdicts_of(
             on_start=show,
         )
     )
+    return [replace(verdict, code=f"{axis}, {verdict.code}") for verdict in verdicts] if axis else verdicts
 
 
 def all_equal(verdicts: Sequence[Verdict]) -> bool:
@@ -195,22 +216,34 @@ def verdict_document(verdicts: Sequence[Verdict], missing: dict[str, str]) -> di
     return {"verified": state, "runs": runs, "left_out": missing}
 
 
-def _stored(directory: Path) -> tuple[DesignFile, CodeFiles]:
-    """Read back what `build` wrote: one design file, and the code beside it."""
-    from swayless.cli.console import counted
+def _stored(directory: Path) -> tuple[list[tuple[DesignFile, ShaperSettings, CodeFiles]], CodeFiles]:
+    """Read back what `build` wrote: the design of each axis with its code, and the wiring of all."""
     from swayless.codegen import TARGETS
     from swayless.errors import FileError
     from swayless.machine import load_design
+    from swayless.machine.running import shaper_settings
 
-    designs = sorted(directory.glob("*.design.json"))
-    if len(designs) != 1:
-        found = f"holds {counted(len(designs), 'file')} *.design.json"
+    designs = [load_design(path) for path in sorted(directory.glob("*.design.json"))]
+    if not designs:
+        found = "holds no file *.design.json"
         raise FileError([f"{directory}: {found}; give a directory that `build` wrote, or a design file"])
-    design = load_design(designs[0])
     files = {name: _code(directory / name) for name in TARGETS}
     if not any(files.values()):
         raise FileError([f"{directory}: holds no generated code in {' or '.join(TARGETS)}"])
-    return design, files
+    if len(designs) == 1:
+        return [(designs[0], shaper_settings(designs[0]), files)], {}
+    wired = files
+    blocks = []
+    for design in designs:
+        own = {
+            target: tuple(file for file in made if f"{design.name}_" in file.path)
+            for target, made in files.items()
+        }
+        wired = {
+            target: tuple(file for file in made if file not in own[target]) for target, made in wired.items()
+        }
+        blocks.append((design, shaper_settings(design), own))
+    return blocks, {target: made for target, made in wired.items() if made}
 
 
 def _code(folder: Path) -> tuple[GeneratedFile, ...]:

@@ -20,6 +20,8 @@ EXAMPLE_NAMES = (
     "srtc-gantry-bank",
     "double-pendulum",
     "hoisting-gantry",
+    "elbow-arm",
+    "two-axis-crane",
 )
 """Names of the examples, in the order in which to read them."""
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from swayless.errors import FileError
+from swayless.machine.axes import axis_documents, chosen_axis, merged_problems
 from swayless.machine.bank_section import MAX_ROWS, BankSection, read_bank, with_options
 from swayless.machine.checks import machine_name
 from swayless.machine.controller_section import ControllerSection, check_counts, law_of, read_controller
@@ -61,6 +62,8 @@ class Machine:
         What to work the rows out from, if they are not written down.
     moves : tuple of MoveSection
         What to simulate; often none.
+    axis : str
+        Which axis of the file this is; empty for a file without axes.
     """
 
     name: str
@@ -71,6 +74,7 @@ class Machine:
     rows: tuple[Row, ...]
     bank: BankSection | None = None
     moves: tuple[MoveSection, ...] = ()
+    axis: str = ""
 
     @property
     def driven_ropes(self) -> DrivenRopes | None:
@@ -81,7 +85,25 @@ class Machine:
         return DrivenRopes(speed_loop, plant.rope_length_m, plant.damping_ratio)
 
 
-def load_machine(path: Path | str, bank_options: Mapping[str, object] | None = None) -> Machine:
+@dataclass(frozen=True)
+class Axes:
+    """The machines of one file: one for each axis, or the one machine of a file without axes.
+
+    Parameters
+    ----------
+    name : str
+        Name in the file: the machine's, or what the names of all axes begin with.
+    machines : tuple of Machine
+        In the order of the file.
+    """
+
+    name: str
+    machines: tuple[Machine, ...]
+
+
+def load_machine(
+    path: Path | str, bank_options: Mapping[str, object] | None = None, *, axis: str | None = None
+) -> Machine:
     """Load a machine file.
 
     Parameters
@@ -93,6 +115,8 @@ def load_machine(path: Path | str, bank_options: Mapping[str, object] | None = N
         file, and those that they exclude: ``rows`` replaces ``tolerance``, ``duration`` replaces
         ``longest_duration``. Rows that the file writes down are then left aside: the machine has a bank. An
         empty mapping takes ``[bank]`` as it is, and reports a file without one. None takes the file as it is.
+    axis : str or None
+        Which axis, for a file that has axes.
 
     Raises
     ------
@@ -122,10 +146,66 @@ def load_machine(path: Path | str, bank_options: Mapping[str, object] | None = N
     path = Path(path)
     document = _parse(path, read_source(path, max_bytes=MAX_BYTES))
     report = Report(str(path))
-    machine = _read_machine(Table(_with_bank(document, bank_options), report, ""), path.name, bank_options)
-    if machine is None or report.problems:
+    axes = axis_documents(document, report)
+    chosen_axis(tuple(axes), axis, report)
+    if report.problems:
         raise FileError(report.problems)
-    return machine
+    chosen = document if axis is None else axes[axis]
+    machine = _read_machine(Table(_with_bank(chosen, bank_options), report, ""), path.name, bank_options)
+    if machine is None or report.problems:
+        found = (
+            report.problems
+            if axis is None
+            else merged_problems({axis: report.problems}, document, report.file)
+        )
+        raise FileError(found)
+    return replace(machine, axis=axis or "")
+
+
+def load_axes(path: Path | str) -> Axes:
+    """Load a machine file with all its axes.
+
+    Parameters
+    ----------
+    path : Path or str
+        A TOML file, with sections ``[axis.NAME]`` or without.
+
+    Raises
+    ------
+    FileError
+        With every problem found in any axis.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from swayless.machine import example_text
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "crane.toml")
+    ...     _ = path.write_text(example_text("two-axis-crane"))
+    ...     axes = load_axes(path)
+    >>> axes.name, [machine.name for machine in axes.machines]
+    ('two_axis_crane', ['two_axis_crane_bridge', 'two_axis_crane_trolley'])
+    """
+    path = Path(path)
+    document = _parse(path, read_source(path, max_bytes=MAX_BYTES))
+    report = Report(str(path))
+    documents = axis_documents(document, report)
+    if report.problems:
+        raise FileError(report.problems)
+    if not documents:
+        machine = load_machine(path)
+        return Axes(machine.name, (machine,))
+    found = {axis: Report(str(path)) for axis in documents}
+    read = [_read_machine(Table(own, found[axis], ""), path.name, None) for axis, own in documents.items()]
+    machines = tuple(
+        replace(machine, axis=axis)
+        for axis, machine in zip(documents, read, strict=True)
+        if machine is not None
+    )
+    problems = merged_problems({axis: own.problems for axis, own in found.items()}, document, str(path))
+    if problems or len(machines) < len(read):
+        raise FileError(problems)
+    return Axes(str(document["name"]), machines)
 
 
 def _parse(path: Path, text: str) -> dict[str, object]:

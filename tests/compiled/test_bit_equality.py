@@ -16,6 +16,7 @@ from swayless.cli.generate import provenance
 from swayless.codegen import TARGETS, generate
 from swayless.machine import load_machine
 from swayless.machine.designing import design_machine
+from swayless.machine.machine_file import load_axes
 from swayless.machine.running import shaper_settings
 from swayless.verify import COMPILERS, find_compiler, verify_block
 
@@ -60,8 +61,8 @@ COUNTS_PER_M_S = 12_000.0
 def designs(tmp_path_factory):
     extra = tmp_path_factory.mktemp("machines") / "everything.toml"
     extra.write_text(EVERYTHING)
-    made = {path.stem: design_machine(load_machine(path)) for path in (*EXAMPLES, extra)}
-    return {name: with_counts(design) for name, design in made.items()}
+    machines = {**MACHINES, "everything": load_machine(extra)}
+    return {name: with_counts(design_machine(machine)) for name, machine in machines.items()}
 
 
 def with_counts(design):
@@ -74,10 +75,16 @@ def with_counts(design):
 PRESENT = [compiler for compiler in COMPILERS if compiler.name == "zig" or compiler.is_installed()]
 """zig comes with the [verify] extra and must be there; gcc and clang are the machine's own."""
 
-NAMES = [*(path.stem for path in EXAMPLES), "everything"]
+MACHINES = {
+    f"{path.stem}{machine.axis and '-' + machine.axis}": machine
+    for path in EXAMPLES
+    for machine in load_axes(path).machines
+}
+NAMES = [*MACHINES, "everything"]
 
 
-IN_DOUBLE_ONLY = {"double-pendulum", "hoisting-gantry", "srtc-gantry-bank"}
+IN_DOUBLE_ONLY = {"double-pendulum", "hoisting-gantry", "srtc-gantry-bank", "two-axis-crane-bridge"}
+IN_DOUBLE_ONLY |= {"two-axis-crane-trolley"}
 CASES = [
     (name, number)
     for name in NAMES
@@ -148,4 +155,8 @@ def test_a_header_of_another_design_does_not_compile(designs, tmp_path):
 def test_every_example_is_a_machine_file_that_builds(designs):
     assert len(EXAMPLES) >= 3
     for path in EXAMPLES:
-        assert tomllib.loads(path.read_text())["name"] == designs[path.stem].name
+        document = tomllib.loads(path.read_text())
+        name, axes = document["name"], document.get("axis")
+        expected = {f"{name}_{axis}" for axis in axes} if axes else {name}
+        made = {designs[key].name for key in designs if key == path.stem or key.startswith(f"{path.stem}-")}
+        assert expected <= made

@@ -11,10 +11,10 @@ from swayless.machine import (
     example_text,
     examples,
     load_design,
-    load_machine,
     save_text,
 )
 from swayless.machine.designing import design_machine
+from swayless.machine.machine_file import load_axes
 
 FOLDER = Path(__file__).parents[3] / "examples"
 
@@ -43,7 +43,8 @@ def test_an_unknown_example_names_the_nearest() -> None:
 
 @pytest.fixture(scope="module")
 def designs() -> dict[str, DesignFile]:
-    return {name: design_machine(load_machine(FOLDER / f"{name}.toml")) for name in EXAMPLE_NAMES}
+    first = {name: load_axes(FOLDER / f"{name}.toml").machines[0] for name in EXAMPLE_NAMES}
+    return {name: design_machine(machine) for name, machine in first.items()}
 
 
 @pytest.mark.parametrize("name", EXAMPLE_NAMES)

@@ -1,0 +1,163 @@
+/*
+ * two_axis_crane_trolley: command shaper. The load does not swing when the drive follows the reference.
+ *
+ * Made by swayless 0.1.0 from two-axis-crane.toml.
+ * Design SHA-256 bc1d383a4c91c2daec5ed1c7166766c66c97f37090ade68dddf972600366f392.
+ * This file is yours: use, change and ship it as you like.
+ *
+ * Tick 0.01 s, numbers in double, law fixed (tick clock).
+ * Commands in m/s, at most 0.5. Settled after 500 ticks without change.
+ * Rows, of which the measured rope chooses one, and the residual vibration that each guarantees on these very taps:
+ *   0 unshaped (ramped only)
+ *   1 9-3.94 m: fd for 0.204874 Hz, damping ratio 0, duration 5 s
+ *     at most 5 % from 0.166134 to 0.252647 Hz (rope 3.89163 to 9 m)
+ *     overtravel 2.5 m per m/s, peak factor 1
+ *   2 3.94-3 m: si for 0.267925 Hz, damping ratio 0, duration 3.11 s
+ *     at most 5 % from 0.249462 to 0.287753 Hz (rope 3 to 3.99163 m)
+ *     overtravel 1.555 m per m/s, peak factor 1
+ *
+ * A rope length that is not valid, not finite or farther from the last one than the hoist could have
+ * moved is not taken: the last one holds, shaping goes on and a status bit says so. At rest every length
+ * is taken.
+ * Rope 3 to 9 m, hoisted with at most 0.25 m/s.
+ *
+ * Call two_axis_crane_trolley_shaper_init() once, then two_axis_crane_trolley_shaper_step() once per tick.
+ * State: 4208 bytes at most, owned by the caller; no heap, globals or libm.
+ * Work per tick: the taps of the row in use, at most 6; none when settled.
+ * Bit equality with the reference needs -ffp-contract=off, and no -ffast-math.
+ *
+ * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
+ * Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.
+ * Wind, off-centre pick-up and a slack rope are beyond what a command can prevent.
+ */
+#ifndef TWO_AXIS_CRANE_TROLLEY_SHAPER_H
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Commands, references and lengths: double, IEEE 754.
+typedef double two_axis_crane_trolley_real_t;
+
+/// Length of a tick, in seconds: call two_axis_crane_trolley_shaper_step() once per tick.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_TICK_S (0.01)
+/// Number of rows besides row 0.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_ROWS (2)
+/// Cells of the ring: the longest delay of any row, in ticks, and one.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_RING (501)
+/// Upper bound of sizeof(two_axis_crane_trolley_shaper_t), in bytes; checked when compiled.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_RAM (4208)
+/// First and last part of the SHA-256 of the design; the .c file refuses another header's.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_DESIGN (0xbc1d383au)
+
+/// Status: enable is false: row 0 (ramped, unshaped) is wanted.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_DISABLED ((uint32_t)1u << 0)
+/// Status: row 0 is in use: the command is ramped, not shaped.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_UNSHAPED ((uint32_t)1u << 1)
+/// Status: another row is wanted; it takes over when the block has settled.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_ROW_WAITS ((uint32_t)1u << 2)
+/// Status: a new command waits until the block has settled.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_COMMAND_WAITS ((uint32_t)1u << 3)
+/// Status: the command is beyond the maximum and was clamped to it.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_COMMAND_CLAMPED ((uint32_t)1u << 4)
+/// Status: a command was not finite: counted as 0 until a finite 0 is commanded.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_COMMAND_INVALID ((uint32_t)1u << 5)
+/// Status: the selector names no row: the last valid one is kept.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_SELECTOR_INVALID ((uint32_t)1u << 6)
+/// Status: quick stop is latched until released, at rest, and the command is 0.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_QUICK_STOP ((uint32_t)1u << 7)
+/// Status: emergency stop is latched until released and the command is 0.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_EMERGENCY_STOP ((uint32_t)1u << 8)
+/// Status: the command is below the minimum and counts as 0.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_BELOW_MINIMUM ((uint32_t)1u << 9)
+/// Status: inching: a small command from rest passes unshaped.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_INCHING ((uint32_t)1u << 10)
+/// Status: the rope length is not valid or not finite: the last one holds.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_ROPE_INVALID ((uint32_t)1u << 11)
+/// Status: the rope length is out of range and was clamped to it.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_ROPE_OUT_OF_RANGE ((uint32_t)1u << 12)
+/// Status: the rope length is farther off than the hoist could move: the last one holds.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_ROPE_JUMP ((uint32_t)1u << 13)
+/// Status: the hoist moves and the rope length does not: one of them is wrong.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_ROPE_FROZEN ((uint32_t)1u << 14)
+/// Status: the hoist speed is not finite and counts as 0.
+#define TWO_AXIS_CRANE_TROLLEY_SHAPER_HOIST_SPEED_INVALID ((uint32_t)1u << 15)
+
+/// Inputs of one tick.
+typedef struct {
+    bool enable; ///< false: row 0 is wanted, ramped and unshaped
+    bool emergency_stop; ///< reference 0 at once; latched until the command is 0
+    bool quick_stop; ///< unshaped stop on its own ramp; latched until at rest and the command is 0
+    two_axis_crane_trolley_real_t command; ///< [m/s] wanted speed; clamped to the maximum, and not finite counts as 0
+    uint8_t selector; ///< 0 unshaped, 1 the row of the rope; anything else keeps the last valid one
+    two_axis_crane_trolley_real_t rope_length_m; ///< [m] 3 to 9: clamped; the last one holds if it cannot be true
+    two_axis_crane_trolley_real_t hoist_speed_m_s; ///< [m/s] rate of change of the length, positive when the load sinks; clamped
+    bool rope_length_valid; ///< false: the rope length is not to be believed
+} two_axis_crane_trolley_shaper_input_t;
+
+/// Outputs of one tick.
+typedef struct {
+    two_axis_crane_trolley_real_t reference; ///< [m/s] speed for the drive
+    two_axis_crane_trolley_real_t stop_distance; ///< [m] signed way still to go if the command is 0 from the next tick on
+    two_axis_crane_trolley_real_t stop_time_s; ///< [s] time until the reference is 0 then
+    uint32_t stop_time_ticks; ///< [ticks] the same time
+    two_axis_crane_trolley_real_t residual_bound; ///< [ratio] residual vibration that the row guarantees; all of it when unshaped
+    uint8_t row; ///< row in use
+    bool settled; ///< nothing is pending: a row may change
+    bool active; ///< the command is being shaped
+    bool error; ///< an input cannot be right; the status says which
+    uint32_t status; ///< one bit for each reason, see above
+} two_axis_crane_trolley_shaper_output_t;
+
+/// State of one shaper. The caller owns it; nothing outside the two functions below may write to it.
+typedef struct {
+    two_axis_crane_trolley_real_t pending; ///< sum of the references still to come
+    two_axis_crane_trolley_real_t fresh; ///< the same from the commands of this lap alone
+    two_axis_crane_trolley_real_t base; ///< command of the last rest
+    two_axis_crane_trolley_real_t target; ///< target of the ramp
+    two_axis_crane_trolley_real_t command; ///< ramped command
+    two_axis_crane_trolley_real_t reference; ///< last reference
+    two_axis_crane_trolley_real_t unmoved; ///< way of the hoist while the length stayed
+    two_axis_crane_trolley_real_t rope_length; ///< length believed
+    two_axis_crane_trolley_real_t hoist_speed; ///< hoist speed, clamped
+    uint32_t held_ticks; ///< ticks for which no length was taken
+    two_axis_crane_trolley_shaper_input_t input; ///< last inputs
+    two_axis_crane_trolley_shaper_output_t output; ///< last outputs
+    two_axis_crane_trolley_real_t ring[TWO_AXIS_CRANE_TROLLEY_SHAPER_RING]; ///< last ramped commands
+    uint32_t head; ///< cell of the newest command
+    uint32_t still_ticks; ///< ticks without change, up to the longest delay
+    uint32_t status; ///< status bits of this tick
+    uint8_t row; ///< row in use
+    uint8_t selected_row; ///< last valid selector
+    uint8_t wanted_row; ///< row that takes over when settled
+    uint8_t rope_row; ///< row of the rope
+    bool lapped; ///< the ring is full of commands since the last rest
+    bool foretold; ///< settled, and the stop is foretold
+    bool idle; ///< the last tick began and ended settled
+    bool zero_commanded; ///< the command is a valid 0
+    bool invalid; ///< a command was not finite
+    bool quick; ///< quick stop is latched
+    bool emergency; ///< emergency stop is latched
+    bool rope_still; ///< the last reading of the rope changed nothing
+} two_axis_crane_trolley_shaper_t;
+
+/// Bring a shaper to the state after power-on: at rest at 0, row 0, nothing latched. Cost: O(1).
+/// @param shaper not NULL; need not be initialised
+void two_axis_crane_trolley_shaper_init(two_axis_crane_trolley_shaper_t *shaper);
+
+/// Run one tick: read the inputs, write every output. Never blocks, never fails; cost: O(taps of the row).
+/// @param shaper not NULL; initialised by two_axis_crane_trolley_shaper_init()
+/// @param input  not NULL; any value of any field is allowed, see there
+/// @param output not NULL; written completely
+void two_axis_crane_trolley_shaper_step(two_axis_crane_trolley_shaper_t *shaper, const two_axis_crane_trolley_shaper_input_t *input,
+    two_axis_crane_trolley_shaper_output_t *output);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
