@@ -32,8 +32,8 @@ def gain_lines(design: DesignFile, simulation: Simulation) -> Iterator[str]:
         (low_m, length_m), mode = rope["rope_length_m"], rope["mode"]
         yield (
             f"on {length_m:.4g} m: trolley, load and speed loop swing at {mode['frequency_hz']:.4f} Hz,"
-            f" damping ratio {mode['damping_ratio']:.4f}; a pendulum at {mode['pendulum_frequency_hz']:.4f} Hz,"
-            f" {mode['pendulum_damping_ratio']:g}"
+            f" damping ratio {mode['damping_ratio']:.4f}; a pendulum at"
+            f" {mode['pendulum_frequency_hz']:.4f} Hz, {mode['pendulum_damping_ratio']:g}"
         )
         for row in rope["rows"]:
             was = "" if low_m == length_m else f", hoisted from {low_m:.4g} m"

@@ -182,8 +182,8 @@ def _sensitivity(
         for design in designs
         if over is Over.rope_length and design.plant.kind == "arm"
     ] + [
-        f"--over rope-length: the design {design.name} is for a drive that feels the load, below which no rope"
-        " has the frequency of a pendulum: plot over frequency"
+        f"--over rope-length: the design {design.name} is for a drive that feels the load, below which no"
+        " rope has the frequency of a pendulum: plot over frequency"
         for design in designs
         if over is Over.rope_length and design.drive.speed_loop is not None
     ]

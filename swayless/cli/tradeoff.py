@@ -45,7 +45,7 @@ def machine_need(
     if drive.speed_loop is not None:
         raise DesignError(
             f"{machine.source}: [drive] trolley_mass: candidates are compared at one damping ratio, and below"
-            " a speed loop it changes with the rope; leave masses and speed loop out to compare for a pendulum"
+            " a speed loop it changes with the rope; leave masses and loop out to compare for a pendulum"
         )
     return Need(
         band=Band(*plant.frequency_hz),
