@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from swayless.controller.approach import Approach
 from swayless.controller.command_reader import CommandReader
 from swayless.controller.ends import Switches
 from swayless.controller.foretelling import Foretelling
@@ -56,11 +55,12 @@ class CommandShaper:
         self._filter = filter_of(settings)
         self._rope = Rope(settings.rope, settings.number) if settings.rope else None
         self._motion, self._stops = Motion(settings, self._filter), Stops(settings)
-        self._reader, self._tuning = CommandReader(settings), Tuning(settings)
-        approach = Approach(settings.limits, settings.number)
-        self._switches, self._travel = Switches(settings), Travel(settings, approach)
+        self._reader = CommandReader(settings)
+        self._tuning = Tuning(settings) if operator.is_tuned else None
+        self._switches = Switches(settings) if operator.has_switches else None
+        self._travel = Travel(settings) if operator.way else None
         self._steps = StepMode(settings) if operator.steps else None
-        self._step_motion = StepMotion(settings, approach) if operator.steps else None
+        self._step_motion = StepMotion(settings, self._travel) if operator.steps else None
         self._selected_row = self._wanted_row = 0
         self._rope_row = 1
         self._row_is_locked = False
@@ -80,15 +80,18 @@ class CommandShaper:
             Outputs of the tick.
         """
         motion, stops = self._motion, self._stops
-        inputs = self._tuning.read(inputs)
+        if self._tuning is not None:
+            inputs = self._tuning.read(inputs)
         self._status = self._read_rope(inputs)
         motion.reference = stops.watch_drive(inputs, motion.reference)
         command = self._read_command(inputs)
         self._want_row(inputs)
-        hits = self._switches.shut(motion.reference)
+        hits = self._switches is not None and self._switches.hit(motion)
         stops.latch(inputs, hits=hits, is_zero=self._reader.is_zero, reference=motion.reference)
-        self._travel.read(inputs, motion)
-        self._read_steps(inputs)
+        if self._travel is not None:
+            self._travel.read(inputs, motion)
+        if self._steps is not None:
+            self._read_steps(inputs, self._steps)
         if stops.is_latched:
             self._stop(at_once=stops.is_halted)
         else:
@@ -111,8 +114,11 @@ class CommandShaper:
         """Read the command as far as locks, limits and switches let it count."""
         locks = self._steps is not None and self._steps.is_running
         command = self._reader.read(inputs.command, locks=locks)
-        self._switches.read(inputs)
-        return self._switches.limited(self._tuning.limited(command))
+        if self._tuning is not None:
+            command = self._tuning.limited(command)
+        if self._switches is not None:
+            command = self._switches.limited(command, inputs)
+        return command
 
     def _want_row(self, inputs: ShaperInput) -> None:
         if inputs.selector <= self._settings.last_selector:
@@ -128,15 +134,17 @@ class CommandShaper:
             self._status |= _DISABLED
             self._wanted_row = 0
 
-    def _read_steps(self, inputs: ShaperInput) -> None:
+    def _read_steps(self, inputs: ShaperInput, steps: StepMode) -> None:
         """Take the step buttons; a press counts while steps run, or at rest while no speed is commanded."""
-        if self._steps is None:
-            return
         motion = self._motion
         free = motion.is_settled and motion.command == 0 and self._reader.is_zero
-        starts = (self._steps.is_running or free) and not self._stops.is_latched
-        self._row_is_locked = self._steps.is_running
-        self._steps.read(inputs, starts=starts and self._tuning.speed_limit > 0, switches=self._switches)
+        starts = (steps.is_running or free) and not self._stops.is_latched
+        self._row_is_locked = steps.is_running
+        steps.read(inputs, self._switches, starts=starts and self._speed_limit > 0)
+
+    @property
+    def _speed_limit(self) -> Any:
+        return self._settings.limits.max_command if self._tuning is None else self._tuning.speed_limit
 
     def _stop(self, *, at_once: bool) -> None:
         self._motion.stop(at_once=at_once)
@@ -148,19 +156,27 @@ class CommandShaper:
         motion, steps = self._motion, self._steps
         if not self._row_is_locked:
             motion.choose_row(self._wanted_row, command)
-        if steps is not None and self._step_motion is not None and steps.is_running:
-            limit = self._tuning.speed_limit
-            motion.target = self._step_motion.command(motion, steps, self._switches, self._travel, limit)
-            motion.follow(motion.target)
-            if motion.is_settled and motion.command == 0:
-                steps.finish()
+        if steps is not None and steps.is_running:
+            self._make_steps(steps)
         else:
-            if not motion.accept(self._travel.wanted(motion, command)):
-                self._status |= _COMMAND_WAITS
-            motion.follow(self._travel.next(motion))
-        if self._switches.shut(motion.reference):
+            self._ramp(command)
+        if self._switches is not None and self._switches.shut(motion.reference):
             self._stops.is_quick = True
             self._stop(at_once=True)
+
+    def _ramp(self, command: Any) -> None:
+        motion, travel = self._motion, self._travel
+        if not motion.accept(command if travel is None else travel.wanted(motion, command)):
+            self._status |= _COMMAND_WAITS
+        motion.follow(motion.ramp() if travel is None else travel.next(motion))
+
+    def _make_steps(self, steps: StepMode) -> None:
+        motion, step_motion = self._motion, self._step_motion
+        assert step_motion is not None  # noqa: S101 - steps come with their motion
+        motion.target = step_motion.command(motion, steps, self._switches, self._speed_limit)
+        motion.follow(motion.target)
+        if motion.is_settled and motion.command == 0:
+            steps.finish()
 
     def _outputs(self) -> ShaperOutput:
         motion = self._motion
@@ -183,9 +199,9 @@ class CommandShaper:
     def _full_status(self) -> int:
         motion = self._motion
         status = self._status | self._reader.status | self._stops.status
-        status |= self._tuning.status | self._switches.status | self._travel.status
-        if self._steps is not None:
-            status |= self._steps.status
+        for part in (self._tuning, self._switches, self._travel, self._steps):
+            if part is not None:
+                status |= part.status
         if motion.row == 0:
             status |= _UNSHAPED
         if not motion.is_inching and motion.row != self._wanted_row:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from swayless.controller.finite import is_finite
+from swayless.controller.motion import Motion
 from swayless.controller.pins import ShaperInput
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.status import Status
@@ -38,8 +39,7 @@ class Switches:
         self._max = self._most_forward = self._most_reverse = limits.max_command
         self.status = 0
 
-    def read(self, inputs: ShaperInput) -> None:
-        """Take the switches of a tick."""
+    def _read(self, inputs: ShaperInput) -> None:
         self.status = 0
         if self._has_stops:
             self.is_shut_forward, self.is_shut_reverse = inputs.stop_forward, inputs.stop_reverse
@@ -57,8 +57,15 @@ class Switches:
         """Largest command in a direction."""
         return self._most_forward if forward else self._most_reverse
 
-    def limited(self, command: Any) -> Any:
-        """Limit a command to what the switches leave of it."""
+    def hit(self, motion: Motion) -> bool:
+        """Whether the motion, or what is pending at a reference of 0, leads towards a made stop switch."""
+        if not (self.is_shut_forward or self.is_shut_reverse):
+            return False
+        return self.shut(motion.reference if motion.reference != 0 else motion.pending)
+
+    def limited(self, command: Any, inputs: ShaperInput) -> Any:
+        """Take the switches of a tick, and limit a command to what they leave of it."""
+        self._read(inputs)
         self._shuts_forward = bool(command > 0 and (self._shuts_forward or self.is_shut_forward))
         self._shuts_reverse = bool(command < 0 and (self._shuts_reverse or self.is_shut_reverse))
         if self._shuts_forward or self._shuts_reverse:

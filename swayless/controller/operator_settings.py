@@ -114,6 +114,16 @@ class OperatorSettings:
     starts_from_zero: bool = False
 
     @property
+    def has_switches(self) -> bool:
+        """Whether there are stop or slow-down switches."""
+        return self.has_stop_switches or self.slow_command is not None
+
+    @property
+    def is_tuned(self) -> bool:
+        """Whether there is something to set on site."""
+        return self.has_speed_limit or self.rope_offset is not None
+
+    @property
     def locks(self) -> bool:
         """Whether there are commands that do nothing until they have been 0."""
         return self.steps is not None or self.has_stop_switches or self.starts_from_zero

@@ -54,23 +54,23 @@ class StepMode:
         """Bits of the steps; a refused press shows until the button is released."""
         return self._refusal | (_STEPPING if self.is_running else 0)
 
-    def read(self, inputs: ShaperInput, *, starts: bool, switches: Switches) -> None:
+    def read(self, inputs: ShaperInput, switches: Switches | None, *, starts: bool) -> None:
         """Take the buttons of a tick.
 
         Parameters
         ----------
         inputs : ShaperInput
             Inputs of the tick.
+        switches : Switches or None
+            Nothing steps towards a made stop switch.
         starts : bool
             A press may begin a move: nothing else moves, is pending, or is commanded.
-        switches : Switches
-            Nothing steps towards a made stop switch.
         """
         forward, reverse = self._buttons.read(inputs)
         if forward or reverse:
             self._refusal = _REFUSED
             if starts and forward != reverse:
-                self._refusal = self._press(inputs.step_size, forward=forward, switches=switches)
+                self._refusal = self._press(inputs.step_size, switches, forward=forward)
         elif not (inputs.step_forward or inputs.step_reverse):
             self._refusal = 0
 
@@ -87,12 +87,13 @@ class StepMode:
         self.left = self.queued = self._zero
         self.is_running = False
 
-    def _press(self, size: int, *, forward: bool, switches: Switches) -> int:
+    def _press(self, size: int, switches: Switches | None, *, forward: bool) -> int:
         """Count one press; returns why not."""
         if not 1 <= size <= len(self._sizes):
             return _SIZE_INVALID
         way = self._sizes[size - 1] if forward else self._zero - self._sizes[size - 1]
-        if switches.shut(way) or abs((self.left + self.queued) + way) > self._capacity:
+        is_shut = switches is not None and switches.shut(way)
+        if is_shut or abs((self.left + self.queued) + way) > self._capacity:
             return _REFUSED
         self.queued = self.queued + way
         self.is_running = True

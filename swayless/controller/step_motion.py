@@ -27,14 +27,15 @@ class StepMotion:
     ----------
     settings : ShaperSettings
         With Step Mode.
-    approach : Approach
-        For coming to rest within what is left.
+    travel : Travel or None
+        Ways to the ends: steps beyond them are cut off.
     """
 
-    def __init__(self, settings: ShaperSettings, approach: Approach) -> None:
+    def __init__(self, settings: ShaperSettings, travel: Travel | None) -> None:
         steps, number = settings.operator.steps, settings.number
         assert steps is not None  # noqa: S101 - only a block with Step Mode asks
-        self._limits, self._approach = settings.limits, approach
+        self._limits, self._travel = settings.limits, travel
+        self._approach = approach = Approach(settings.limits, number)
         self._plan = PlannedMove(settings, approach)
         self._most, self._zero = steps.command, number.scalar(0)
         share = number.scalar(2.0 ** (ROUNDING_BITS - number.significand_bits))
@@ -42,7 +43,7 @@ class StepMotion:
         self._speed = self._zero
         self._falls = False
 
-    def command(self, motion: Motion, steps: StepMode, switches: Switches, travel: Travel, limit: Any) -> Any:
+    def command(self, motion: Motion, steps: StepMode, switches: Switches | None, limit: Any) -> Any:
         """Give the next command, and take it from what is left.
 
         Parameters
@@ -51,10 +52,8 @@ class StepMotion:
             Where the block is.
         steps : StepMode
             What is left; presses that wait are taken over where the row allows.
-        switches : Switches
+        switches : Switches or None
             For the largest command towards a slow-down switch.
-        travel : Travel
-            Ways to the ends: steps beyond them are cut off.
         limit : float or int
             Largest command of this tick.
         """
@@ -64,11 +63,14 @@ class StepMotion:
         forward = bool(motion.command > 0 or (motion.command == 0 and steps.left > 0))
         command = motion.command if forward else self._zero - motion.command
         way = steps.left if forward else self._zero - steps.left
-        most = min(self._most, switches.most(forward=forward), limit)
+        most = min(self._most, limit)
+        if switches is not None:
+            most = min(most, switches.most(forward=forward))
         if motion.is_settled or not motion.waits:
-            way = travel.cut(
-                motion, way if most > 0 else min(way, self._approach.glide(command)), forward=forward
-            )
+            if most == 0:
+                way = min(way, self._approach.glide(command))
+            if self._travel is not None:
+                way = self._travel.cut(motion, way, forward=forward)
         after = self._after(motion, command, way, most)
         way = way - after
         if after == 0 and (command == 0 or abs(way) <= self.rounding):

@@ -18,28 +18,24 @@ _WAY_LIMITS, _WAY_TOO_SHORT = int(Status.WAY_LIMITS), int(Status.WAY_TOO_SHORT)
 
 
 class Travel:
-    """What the ways to the ends leave of a command; a block without distance inputs has no ends.
+    """What the ways to the ends leave of a command.
 
     Parameters
     ----------
     settings : ShaperSettings
-        Limits, number type, distance inputs, and what a contactor drive knows.
-    approach : Approach
-        For coming to rest within a way.
+        With distance inputs.
     """
 
-    def __init__(self, settings: ShaperSettings, approach: Approach) -> None:
+    def __init__(self, settings: ShaperSettings) -> None:
         self._limits, self._zero = settings.limits, settings.number.scalar(0)
         self._contactor = settings.operator.contactor_commands
-        self._approach, self._plan = approach, PlannedMove(settings, approach)
-        self._distances = Distances(settings) if settings.operator.way is not None else None
+        self._approach = Approach(settings.limits, settings.number)
+        self._plan = PlannedMove(settings, self._approach)
+        self._distances = Distances(settings)
         self.status = 0
 
     def read(self, inputs: ShaperInput, motion: Motion) -> None:
         """Take the distances of a tick."""
-        self.status = 0
-        if self._distances is None:
-            return
         self.status = self._distances.read(inputs, motion.reference)
         glide = self._approach.glide(abs(motion.command))
         total = motion.pending + (glide if motion.command > 0 else self._zero - glide)
@@ -48,8 +44,6 @@ class Travel:
 
     def cut(self, motion: Motion, way: Any, *, forward: bool) -> Any:
         """Cut what is left of steps down to the way to the end, but not below what stopping takes."""
-        if self._distances is None:
-            return way
         left = self._distances.left(forward=forward, pending=motion.pending)
         left = max(left, self._approach.glide(abs(motion.command)))
         if left >= way:
@@ -59,7 +53,7 @@ class Travel:
 
     def wanted(self, motion: Motion, command: Any) -> Any:
         """Command that a row which waits may accept at rest."""
-        if self._distances is None or not (motion.waits and motion.is_settled):
+        if not (motion.waits and motion.is_settled):
             return command
         forward = bool(motion.command > 0 or (motion.command == 0 and command > 0))
         now, wanted = self._ahead(motion.command, command, forward=forward)
@@ -72,7 +66,7 @@ class Travel:
 
     def next(self, motion: Motion) -> Any:
         """Next command on the ramp to the target; of a row that does not wait, within the way."""
-        if self._distances is None or motion.waits:
+        if motion.waits:
             return motion.ramp()
         forward = bool(motion.command > 0 or (motion.command == 0 and motion.target > 0))
         now, target = self._ahead(motion.command, motion.target, forward=forward)
