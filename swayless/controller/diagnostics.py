@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from swayless.controller.checksum import Checksum
+from swayless.controller.rope import RopeSettings
 from swayless.controller.rope_bound import RopeBounds
+from swayless.controller.status import Status
 from swayless.controller.sway import SwaySettings
+from swayless.controller.taps import Bank
 from swayless.controller.tracking import TrackingSettings
 from swayless.errors import ControllerError
 
@@ -58,3 +61,40 @@ class Diagnostics:
     rope_bounds: RopeBounds | None = None
     tracking: TrackingSettings | None = None
     facts: DesignFacts | None = None
+
+    def check(self, bank: Bank, rope: RopeSettings | None) -> None:
+        """Refuse diagnostics that were made for another block.
+
+        Parameters
+        ----------
+        bank : Bank
+            Rows of the block.
+        rope : RopeSettings or None
+            Its measured rope.
+
+        Raises
+        ------
+        ControllerError
+            If rows, rope or number type are not those of the block.
+        """
+        rows, sway, bounds = len(bank.rows), self.sway, self.rope_bounds
+        if sway is not None and sway.number.name != bank.number.name:
+            raise ControllerError(
+                f"predicted sway in {sway.number.name}: the block runs in {bank.number.name}"
+            )
+        if sway is not None and (sway.rope is None) != (rope is None):
+            raise ControllerError("predicted sway follows the measured rope exactly where there is one")
+        if sway is not None and sway.rope is None and len(sway.turns) != rows:
+            raise ControllerError(f"predicted sway has {len(sway.turns)} turns for {rows} rows")
+        if bounds is not None and (rope is None or len(bounds.starts) != rows):
+            raise ControllerError(f"residual bounds over the rope need a measured rope, and {rows} rows")
+
+    @property
+    def status_bits(self) -> Status:
+        """Status bits that these diagnostics set."""
+        tracking = Status(0) if self.tracking is None else Status.TRACKING
+        return tracking | (Status(0) if self.facts is None else Status.TABLES_INVALID)
+
+
+NO_DIAGNOSTICS = Diagnostics()
+"""A block that says of itself what every block does, and nothing else."""
