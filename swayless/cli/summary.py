@@ -38,7 +38,7 @@ class Ways(NamedTuple):
 
 
 def ways(settings: ShaperSettings, row: int) -> Ways:
-    """Ask the block's own reference for the ways of a row; where the rope is measured, on its longest.
+    """Ask the block's own reference for the ways of a row: on the longest rope, where the arm is slowest.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def ways(settings: ShaperSettings, row: int) -> Ways:
 
     shaper = CommandShaper(settings)
     limits = settings.limits
-    rope = 0 if settings.rope is None else settings.rope.longest
+    rope = _slowest(settings)
     selector, by_rope = row, settings.bank.by_rope
     if by_rope is not None and row > 0:
         selector, rope = 1, by_rope.upper[row - 1]
@@ -66,6 +66,17 @@ def ways(settings: ShaperSettings, row: int) -> Ways:
         quick_m=_still_to_go_m(settings, quick) + _way_of_tick_m(settings, quick),
         jog_m=_still_to_go_m(settings, first) + _way_of_tick_m(settings, first),
     )
+
+
+def _slowest(settings: ShaperSettings) -> Any:
+    """Rope, or position, at which the shaping takes longest; 0 where nothing is measured."""
+    from swayless.controller.spaced_taps import SpacedTaps
+
+    taps = settings.bank.rows[0].taps
+    if isinstance(taps, SpacedTaps):
+        spacing = taps.spacing
+        return spacing.starts[spacing.ticks.index(spacing.most)]
+    return 0 if settings.rope is None else settings.rope.longest
 
 
 def _still_to_go_m(settings: ShaperSettings, output: ShaperOutput) -> float:
