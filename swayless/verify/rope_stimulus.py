@@ -1,4 +1,4 @@
-"""Ropes for stimuli: held still, hoisted in every way, and read wrongly. Not for: commands."""
+"""Ropes and positions for stimuli: held still, moved in every way, and read wrongly. Not for: commands."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from swayless.controller.rope import RopeSettings
 from swayless.controller.settings import ShaperSettings
+from swayless.controller.spacing_filter import spacing_of
 from swayless.verify.builder import Builder
 
 SPEEDS = np.array([0.0, 0.0, 0.0, 1.0, -1.0, 0.5, -0.3, 0.02])
@@ -41,6 +42,30 @@ def hoisted(build: Builder, inputs: NDArray[np.void]) -> NDArray[np.void]:
     parts = np.where(turned < span, parts, -parts) + noisy * build.random.normal(0.0, NOISE, inputs.size)
     inputs["rope_length"] = build.reals(shortest + np.minimum(turned, 2.0 * span - turned))
     inputs["hoist_speed"] = build.reals(parts * float(rope.hoist_speed))
+    return inputs
+
+
+def wandering(build: Builder, inputs: NDArray[np.void]) -> NDArray[np.void]:
+    """Copy inputs with a position that wanders through all spacings, to and fro over each place of change.
+
+    Parameters
+    ----------
+    build : Builder
+        Of the block; its taps follow a spacing.
+    inputs : structured ndarray, shape (ticks,)
+        Whatever else happens.
+    """
+    rope, inputs = rope_of(build.settings), inputs.copy()
+    starts = build.reals(spacing_of(build.settings).starts)
+    below = starts - 1 if build.settings.number.is_integer else np.nextafter(starts, starts[0] - 1)
+    places = np.unique(np.clip([starts, below], rope.shortest, rope.longest))
+    ways = build.random.choice([1, 1, 1, -1], inputs.size)
+    turned = np.mod(np.cumsum(ways), max(2 * places.size - 2, 1))
+    order = np.minimum(turned, 2 * places.size - 2 - turned)
+    longest = max(1, inputs.size // (6 * places.size))
+    stays = build.random.integers(1, longest + 1, inputs.size)
+    inputs["rope_length"] = places[np.repeat(order, stays)[: inputs.size]]
+    inputs["hoist_speed"] = 0
     return inputs
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swayless.controller.settings import ShaperSettings
 from swayless.verify.builder import Builder
-from swayless.verify.rope_stimulus import hoisted, misread
+from swayless.verify.rope_stimulus import hoisted, misread, wandering
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,8 +118,9 @@ def stimuli(settings: ShaperSettings, *, ticks: int, seed: int = 1) -> Iterator[
     Yields
     ------
     Stimulus
-        Steps, pendant jogs, random joystick, knob, stops and bad input; where the rope is measured, on a rope
-        that is held still, then some of them while it is hoisted and while it is read wrongly.
+        Steps, pendant jogs, random joystick, knob, stops and bad input; where the rope or a position is
+        measured, while that is held still, then some of them while it moves and while it is read wrongly,
+        and, where taps follow a spacing, while it wanders through all spacings.
     """
     build = Builder(settings, seed)
     made = [step_and_release(build), jogs(build)]
@@ -129,6 +130,8 @@ def stimuli(settings: ShaperSettings, *, ticks: int, seed: int = 1) -> Iterator[
         for stimulus in made[:5]:
             yield Stimulus(f"{stimulus.name}, hoisting", hoisted(build, stimulus.inputs))
         yield Stimulus("rope read wrongly", misread(build, hoisted(build, joystick(build, ticks).inputs)))
+    if settings.is_spaced:
+        yield Stimulus("steps, every spacing", wandering(build, made[0].inputs))
 
 
 def soak(settings: ShaperSettings, *, ticks: int, seed: int = 2) -> Stimulus:
