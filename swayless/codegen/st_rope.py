@@ -39,6 +39,7 @@ def st_said(measured: Measured, text: str) -> str:
         (ROPE.c_speed_name, measured.c_speed_name),
         ("[m", f"[{measured.unit}"),
         ("the rope", f"the {measured.mover}"),
+        ("The rope", f"The {measured.title}"),
     )
     for old, new in names:
         text = text.replace(old, new)

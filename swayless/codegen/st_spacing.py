@@ -66,8 +66,10 @@ def spacing_tables(settings: ShaperSettings, types: StTypes) -> list[Table]:
     ]
 
 
-def spacing_arrays(settings: ShaperSettings, types: StTypes) -> list[Variable]:
+def spacing_arrays(settings: ShaperSettings, types: StTypes, commands: Variable) -> list[Variable]:
     """List the rings of the law, and what else it keeps for each tap.
+
+    The original law scatters commands at once, and needs none of them later.
 
     Parameters
     ----------
@@ -75,6 +77,8 @@ def spacing_arrays(settings: ShaperSettings, types: StTypes) -> list[Variable]:
         The block.
     types : StTypes
         Its types.
+    commands : Variable
+        Ring of the last ramped commands.
     """
     last, law = settings.longest_delay_ticks, law_of(settings)
     sums = Variable("CommandSums", types.array_of("real", last), "ring: sum of the commands of this lap")
@@ -86,6 +90,7 @@ def spacing_arrays(settings: ShaperSettings, types: StTypes) -> list[Variable]:
         ]
     later_taps = max(len(table.lags) for table in settings.row_tables) - 1
     return [
+        commands,
         sums,
         Variable("Spacings", types.array_of("word", last), "[ticks] ring: spacing of each command"),
         Variable("TapDelays", types.array_of("word", later_taps), "[ticks] delay of each tap"),

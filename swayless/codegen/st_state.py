@@ -75,10 +75,10 @@ def state_of(settings: ShaperSettings, types: StTypes) -> list[Variable]:
     if settings.clock is not None:
         return [*_phase_arrays(settings, types), *scalars, *_phase_reading(settings.clock, types)]
     ring = types.array_of("real", settings.longest_delay_ticks)
-    commands = [Variable("Ring", ring, "last ramped commands")]
+    commands = Variable("Ring", ring, "last ramped commands")
     if not settings.is_spaced:
-        return [*commands, *scalars]
-    return [*commands, *spacing_arrays(settings, types), *scalars, *spacing_variables(settings)]
+        return [commands, *scalars]
+    return [*spacing_arrays(settings, types, commands), *scalars, *spacing_variables(settings)]
 
 
 def _phase_arrays(settings: ShaperSettings, types: StTypes) -> list[Variable]:
