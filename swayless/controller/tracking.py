@@ -58,12 +58,8 @@ def tracking_settings(
     delay_s : float
         Lag of the drive that is allowed for, at least 0; rounded up to ticks. A drive of first order with a
         time constant T is at most a T away from references that ramp by a: T as delay covers it.
-    tick_s : float
-        Length of a tick.
-    limits : CommandLimits
-        What commands are in.
-    number : NumberType
-        Target type.
+    tick_s, limits, number
+        Length of a tick, what commands are in, target type.
 
     Raises
     ------
