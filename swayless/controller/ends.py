@@ -127,9 +127,10 @@ class Distances:
         """Whether a sum of references to come, with its sign, exceeds the way by more than `slack`."""
         return bool(total > self._forward + slack or self._zero - total > self._reverse + slack)
 
-    def left(self, *, forward: bool, pending: Any) -> Any:
-        """Sum of the commands that may still come towards an end, of which `pending` is under way already."""
-        return self._forward - pending if forward else self._reverse + pending
+    def left(self, motion: Motion, *, forward: bool) -> Any:
+        """Sum of the commands that may still come towards an end; from rest none where it is not worth it."""
+        left = self._forward - motion.pending if forward else self._reverse + motion.pending
+        return self._zero if motion.command == 0 and left < self._settings.least else left
 
     def _held(self, way: Any) -> Any:
         return min(max(way, self._zero), self._most)

@@ -23,6 +23,9 @@ MOST_PRESSES = 16
 STEP_ERROR = 0.001
 """A step may be off by this part of it at most because it is a whole number of counts times ticks."""
 
+LEAST_WAY_M = 0.01
+"""From rest, nothing moves towards an end that is nearer than this: sensors tremble by some millimetres."""
+
 MM_PER_M = 1000
 """In int32 ways are in mm."""
 
@@ -169,7 +172,8 @@ class _Maker:
         if not self._number.is_integer:
             scalar = self._number.scalar
             scale = scalar(float(self._sums_per_m))
-            return WaySettings(scalar(margin_m), scalar(farthest_m), scale, 0, self._number)
+            least = scalar(float(as_written(LEAST_WAY_M) * self._sums_per_m))
+            return WaySettings(scalar(margin_m), scalar(farthest_m), scale, 0, least, self._number)
         per_mm, most_mm = self._sums_per_m / MM_PER_M, farthest_m * MM_PER_M
         shift = 30
         while shift > 0 and per_mm * most_mm * (1 << shift) >= 1 << 62:
@@ -177,7 +181,9 @@ class _Maker:
         margin_mm = math.ceil(as_written(margin_m) * MM_PER_M)
         if margin_mm + most_mm >= 1 << 31:
             raise ControllerError("limit_margin_m and the longest stop exceed 2^31 mm")
-        return WaySettings(margin_mm, most_mm, math.floor(per_mm * (1 << shift)), shift, self._number)
+        scale = math.floor(per_mm * (1 << shift))
+        least = math.ceil(as_written(LEAST_WAY_M) * self._sums_per_m)
+        return WaySettings(margin_mm, most_mm, scale, shift, least, self._number)
 
     def contactor(self, speeds_m_s: tuple[float, ...]) -> tuple[Any, ...]:
         """Make the commands that the drive knows."""

@@ -47,6 +47,9 @@ class WaySettings:
         Command units times ticks in a metre; in int32 in a mm, over 2**shift.
     shift : int
         0 in float types.
+    least : float or int
+        Smallest way that is worth leaving rest for, in command units times ticks: below it a distance that
+        trembles would move the crane for ever.
     number : NumberType
         Number type.
     """
@@ -55,6 +58,7 @@ class WaySettings:
     farthest: Any
     scale: Any
     shift: int
+    least: Any
     number: NumberType
 
     def budget(self, distance: Any) -> Any:
@@ -63,9 +67,9 @@ class WaySettings:
         Examples
         --------
         >>> from swayless.controller.number import number_type
-        >>> WaySettings(0.5, 20.0, 100.0, 0, number_type("double")).budget(1.5)
+        >>> WaySettings(0.5, 20.0, 100.0, 0, 1.0, number_type("double")).budget(1.5)
         100.0
-        >>> WaySettings(500, 20_000, 3 << 16, 16, number_type("int32")).budget(1500)
+        >>> WaySettings(500, 20_000, 3 << 16, 16, 30, number_type("int32")).budget(1500)
         3000
         """
         way = min(max(distance - self.margin, self.number.scalar(0)), self.farthest)

@@ -44,7 +44,7 @@ class Travel:
 
     def cut(self, motion: Motion, way: Any, *, forward: bool) -> Any:
         """Cut what is left of steps down to the way to the end, but not below what stopping takes."""
-        left = self._distances.left(forward=forward, pending=motion.pending)
+        left = self._distances.left(motion, forward=forward)
         left = max(left, self._approach.glide(abs(motion.command)))
         if left >= way:
             return way
@@ -57,7 +57,7 @@ class Travel:
             return command
         forward = bool(motion.command > 0 or (motion.command == 0 and command > 0))
         now, wanted = self._ahead(motion.command, command, forward=forward)
-        left = self._distances.left(forward=forward, pending=motion.pending)
+        left = self._distances.left(motion, forward=forward)
         reachable = self._reachable(now, wanted, left)
         if reachable == wanted:
             return command
@@ -70,7 +70,7 @@ class Travel:
             return motion.ramp()
         forward = bool(motion.command > 0 or (motion.command == 0 and motion.target > 0))
         now, target = self._ahead(motion.command, motion.target, forward=forward)
-        left = self._distances.left(forward=forward, pending=motion.pending)
+        left = self._distances.left(motion, forward=forward)
         after = self._approach.within(now, target, left)
         if after != ramped(now, target, self._limits):
             self.status |= _WAY_LIMITS
