@@ -20,7 +20,7 @@ def is_finite(value: Any, number: NumberType) -> bool:
 
 
 def clamped(value: Any, low: Any, high: Any, number: NumberType) -> Any:
-    """Bring a reading into a range; one that is not a number counts as 0.
+    """Bring a reading into a range; one that is not a number counts as 0, and a lower end of 0 is never -0.
 
     Examples
     --------
@@ -28,4 +28,8 @@ def clamped(value: Any, low: Any, high: Any, number: NumberType) -> Any:
     >>> [clamped(value, -2.0, 1.0, number_type("double")) for value in (-3.0, 0.5, float("inf"))]
     [-2.0, 0.5, 0.0]
     """
-    return min(max(value, low), high) if is_finite(value, number) else number.scalar(0)
+    if not is_finite(value, number):
+        return number.scalar(0)
+    if value <= low:
+        return low
+    return min(value, high)
