@@ -49,6 +49,14 @@ FrequencyOption = Annotated[
     list[str] | None,
     typer.Option("--frequency", metavar="F", help="Of an arm; may be given several times."),
 ]
+PositionOption = Annotated[
+    list[str] | None,
+    typer.Option("--position", metavar="P", help="Of an arm with positions; may be given several times."),
+]
+SweepOption = Annotated[
+    str | None,
+    typer.Option(metavar="SWEEP", help="'3.1 m to 3.9 m at 0.3 m/s from 1 s': the position of an arm."),
+]
 RowOption = Annotated[
     list[str] | None,
     typer.Option("--row", metavar="N", help="Row to run, all unless given; may be given several times."),
@@ -67,6 +75,8 @@ def simulate(
     wind: WindOption = None,
     rope_length: RopeOption = None,
     frequency: FrequencyOption = None,
+    position: PositionOption = None,
+    sweep: SweepOption = None,
     row: RowOption = None,
     within: WithinOption = "50 mm",
     output: DirectoryOption = None,
@@ -89,7 +99,8 @@ def simulate(
     from swayless.cli.simulation_summary import print_note, print_simulation, simulation_document
     from swayless.machine.running import shaper_settings
 
-    spoken = {"move": move, "hoist": hoist, "wind": wind, "rope_length": rope_length, "frequency": frequency}
+    spoken: dict[str, Any] = {"move": move, "hoist": hoist, "sweep": sweep, "wind": wind}
+    spoken |= {"rope_length": rope_length, "frequency": frequency, "position": position}
     with progress() as show:
         design, of_file = _design(file, show)
         settings = shaper_settings(design)
@@ -163,22 +174,24 @@ def _asked(
     """Read the move that the options describe, with the checks of the machine file."""
     from swayless.cli.option_table import option_table
     from swayless.cli.phrases import HOIST, WIND, move_phrase, phrase
-    from swayless.machine.move_section import PLACE_KEYS, MoveSection, read_move
+    from swayless.machine.move_section import PLACE_KEYS, WAY_KEYS, MoveSection, read_move
     from swayless.machine.plant_section import PlantKind
 
     kind: PlantKind = "crane" if design.plant.kind in {"crane", "double_pendulum"} else "arm"
-    many = {key: _one_or_all(spoken[key]) for key in PLACE_KEYS.values()}
+    many = {key: _one_or_all(spoken[key]) for key in PLACE_KEYS}
     raw: dict[str, Any] = {} if spoken["move"] is None else dict(move_phrase(spoken["move"], problems))
     called = dict.fromkeys(raw, "--move")
     table = option_table({**raw, **many, "row": _one_or_all(row)}, problems, called=called)
     inner = {
         key: phrase(spoken[key], words, problems, f"--{key}")
-        for key, words in (("hoist", HOIST), ("wind", WIND))
+        for key, words in (*((way, HOIST) for way in WAY_KEYS), ("wind", WIND))
         if spoken[key] is not None
     }
     table = replace(table, raw={**table.raw, **inner})
+    unit = None if design.plant.position is None else design.plant.position.unit
     speed_m_s = design.drive.max_speed_m_s
-    return read_move(kind, table, max_speed_m_s=speed_m_s, rows=positions) or MoveSection()
+    asked = read_move(kind, table, max_speed_m_s=speed_m_s, rows=positions, position_unit=unit)
+    return asked or MoveSection()
 
 
 def _one_or_all(values: list[str] | None) -> str | list[str] | None:
@@ -205,6 +218,6 @@ def _write(
             show(f"drawing move {number}")
             path = directory / f"{design.name}-move-{number}-rope-{place}"
             save_figure(figure, path.with_name(f"{path.name}.svg"))
-            write_text_atomically(path.with_name(f"{path.name}.csv"), record_text(cases))
+            write_text_atomically(path.with_name(f"{path.name}.csv"), record_text(design, cases))
             written += [f"{path}.svg", f"{path}.csv"]
     return written

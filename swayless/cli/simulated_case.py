@@ -42,7 +42,10 @@ class Contender:
 
 @dataclass(frozen=True)
 class Site:
-    """Where a move is made: a rope that stands, or one that is hoisted; of an arm the pendulum as fast."""
+    """Where a move is made: a rope that stands, or one that is hoisted.
+
+    Of an arm with positions these take the place of ropes, of another arm the pendulums that are as fast.
+    """
 
     hoist: Hoist | None
     length_m: float

@@ -20,6 +20,7 @@ from swayless.cli.simulated_control import (
     rope_of,
     shaped_reference,
 )
+from swayless.cli.simulated_place import pendulums_m
 from swayless.cli.simulated_plant import case_until, simulated_plant
 from swayless.errors import ControllerError
 from swayless.plant import pendulum_frequency_hz, pendulum_rope_length_m
@@ -37,6 +38,8 @@ FOR_PENDULUM = "for a pendulum"
 
 MOST_ONE_BY_ONE = 10
 """Cases up to which plants run faster one by one, in plain floats, than together in arrays."""
+
+_BETWEEN = 101  # places of a way at which its slowest one is sought: for how long to watch
 
 
 def simulate_move(
@@ -69,7 +72,7 @@ def simulate_move(
             f" {design.drive.max_speed_m_s:g} m/s"
         )
     sites = _sites(design, move)
-    slowest_s = 1.0 / pendulum_frequency_hz(max(_lengths(site)[-1] for site in sites))
+    slowest_s = 1.0 / pendulum_frequency_hz(_longest_m(design, sites))
     ramp_s = speed_m_s / (design.drive.acceleration_m_s2 or math.inf)
     settle_s = math.ceil(ramp_s + settings.longest_delay_ticks * tick_s + slowest_s)
     press = press_of(move, speed_m_s, design.drive, settle_s, tick_s)
@@ -93,13 +96,17 @@ def simulate_move(
 
 
 def _sites(design: DesignFile, move: MoveSection) -> list[Site]:
-    """Ropes to move on: those asked for, or the ends of the machine's range and their middle."""
+    """Places to move at: those asked for, or the ends of the machine's range and their middle."""
     if move.hoist is not None:
         return [Site(move.hoist, move.hoist.from_m)]
     plant = design.plant
     on_rope = plant.kind in {"crane", "double_pendulum"}
+    as_given = on_rope or plant.position is not None
     if move.places is not None:
-        return [Site(None, place if on_rope else pendulum_rope_length_m(place)) for place in move.places]
+        return [Site(None, place if as_given else pendulum_rope_length_m(place)) for place in move.places]
+    if plant.position is not None:
+        first, last = plant.position.places[0], plant.position.places[-1]
+        return [Site(None, place) for place in (first, 0.5 * (first + last), last)]
     low_hz, high_hz = plant.frequency_hz
     frequencies_hz = [low_hz, 0.5 * (low_hz + high_hz), high_hz]
     lengths = [pendulum_rope_length_m(frequency_hz) for frequency_hz in frequencies_hz]
@@ -109,10 +116,11 @@ def _sites(design: DesignFile, move: MoveSection) -> list[Site]:
     return [Site(None, length_m) for length_m in dict.fromkeys(lengths)]
 
 
-def _lengths(site: Site) -> list[float]:
-    """Shortest and longest rope of a site."""
-    ends = [site.length_m] if site.hoist is None else [site.hoist.from_m, site.hoist.to_m]
-    return sorted(ends)
+def _longest_m(design: DesignFile, sites: list[Site]) -> float:
+    """Longest rope, or pendulum as fast as an arm, at the ends of all sites and between."""
+    ends = [[site.length_m] if site.hoist is None else [site.hoist.from_m, site.hoist.to_m] for site in sites]
+    places = np.concatenate([np.linspace(each[0], each[-1], _BETWEEN) for each in ends])
+    return float(pendulums_m(design.plant, places).max())
 
 
 def _contenders(
@@ -205,7 +213,7 @@ def _run(
     for row, (_, contender) in zip(references, fields, strict=True):
         row[: contender.reference_m_s.size] = contender.reference_m_s
     time_s = tick_s * np.arange(ticks + 1.0)
-    ropes = np.array([rope_of(*_rope(site), time_s) for site, _ in fields])
+    ropes = pendulums_m(design.plant, np.array([rope_of(*_rope(site), time_s) for site, _ in fields]))
     simulate, wind = simulated_plant(design, tick_s), _push(move.wind, ticks, tick_s)
     if len(fields) > MOST_ONE_BY_ONE:
         together = simulate(references, ropes, wind)

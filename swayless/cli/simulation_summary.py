@@ -14,13 +14,15 @@ import numpy as np
 
 from swayless.cli.console import per_cent, print_line, print_table
 from swayless.cli.driven_summary import gain_document, gain_lines
+from swayless.cli.simulated_control import rope_of
+from swayless.cli.simulated_place import is_arm, place_head, place_text, place_unit
 from swayless.plant import pendulum_frequency_hz
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from swayless.cli.simulated_case import Case, Simulation, Site
-    from swayless.machine import DesignFile
+    from swayless.cli.simulated_case import Case, Simulation
+    from swayless.machine import DesignFile, PlantRecord
     from swayless.plant.simulation.trajectory import FloatArray
 
 _MM = 1000.0
@@ -39,10 +41,9 @@ def print_simulation(design: DesignFile, simulation: Simulation, within_m: float
     within_m : float
         How near to its end the load rests.
     """
-    place = "frequency [Hz]" if _is_arm(design) else "rope [m]"
-    angle = () if _is_arm(design) else ("[deg]",)
+    angle = () if is_arm(design.plant) else ("[deg]",)
     heads = (
-        place,
+        place_head(design.plant),
         "moved by",
         "left [mm]",
         *angle,
@@ -53,17 +54,18 @@ def print_simulation(design: DesignFile, simulation: Simulation, within_m: float
         "rests [s]",
     )
     rows = [_row(design, case, within_m) for case in simulation.cases]
-    print_table(f"{design.name}: {move_text(simulation)}", heads, rows)
+    print_table(f"{design.name}: {move_text(design, simulation)}", heads, rows)
     for line in gain_lines(design, simulation):
         print_line(line)
 
 
 def print_note(design: DesignFile, within_m: float) -> None:
     """Say what the heads of the tables mean."""
-    unshaped = "v / w" if _is_arm(design) else "v sqrt(L / g)"
+    unshaped = "v / w" if is_arm(design.plant) else "v sqrt(L / g)"
+    stand = "hoist" if design.plant.position is None else "position"
     print_line(
-        f"left: sway once reference and hoist stand; %: of {unshaped}, the sway of an unshaped step; stands:"
-        " from the press until the reference is 0; rests: until the load stays within"
+        f"left: sway once reference and {stand} stand; %: of {unshaped}, the sway of an unshaped step;"
+        " stands: from the press until the reference is 0; rests: until the load stays within"
         f" {_MM * within_m:g} mm of its end"
     )
 
@@ -71,7 +73,7 @@ def print_note(design: DesignFile, within_m: float) -> None:
 def _row(design: DesignFile, case: Case, within_m: float) -> list[str]:
     angle_rad, rests_s = residual_rad(design, case), case.rests_s(within_m)
     return [
-        place_text(design, case.site),
+        place_text(design.plant, case.site),
         case.contender.name,
         f"{_MM * case.residual_m:.1f}",
         *([] if angle_rad is None else [f"{math.degrees(angle_rad):.3f}"]),
@@ -83,42 +85,31 @@ def _row(design: DesignFile, case: Case, within_m: float) -> list[str]:
     ]
 
 
-def move_text(simulation: Simulation) -> str:
-    """Say what was asked for: how long, how fast, with which hoist and wind."""
-    move = simulation.move
-    way = f"{simulation.held_s:g} s" if move.distance_m is None else f"{move.distance_m:g} m"
-    text = f"{way} at {simulation.speed_m_s:.4g} m/s"
+def move_text(design: DesignFile, simulation: Simulation) -> str:
+    """Say what was asked for: how long, how fast, with which hoist or sweep, and wind."""
+    move, position = simulation.move, design.plant.position
+    what, unit = ("hoist", "m") if position is None else ("sweep", position.unit)
+    press = f"{simulation.held_s:g} s" if move.distance_m is None else f"{move.distance_m:g} m"
+    text = f"{press} at {simulation.speed_m_s:.4g} m/s"
     if move.start_s:
         text += f" from {move.start_s:g} s"
     if move.hoist is not None:
-        hoist = move.hoist
-        text += (
-            f", hoist {hoist.from_m:g} to {hoist.to_m:g} m at {hoist.rate_m_s:g} m/s from {hoist.start_s:g} s"
-        )
+        way = move.hoist
+        text += f", {what} {way.from_m:g} to {way.to_m:g} {unit} at {way.rate_m_s:g} {unit}/s"
+        text += f" from {way.start_s:g} s"
     if move.wind is not None:
         text += f", wind {move.wind.push_m_s2:g} m/s2 from {move.wind.start_s:g} s"
         text += "" if move.wind.duration_s is None else f" for {move.wind.duration_s:g} s"
     return text if move.name is None else f"{move.name}: {text}"
 
 
-def place_text(design: DesignFile, site: Site) -> str:
-    """Write a rope, or the frequency of an arm."""
-    if site.hoist is not None:
-        return f"{site.hoist.from_m:.4g} to {site.hoist.to_m:.4g}"
-    return f"{pendulum_frequency_hz(site.length_m) if _is_arm(design) else site.length_m:.4g}"
-
-
 def residual_rad(design: DesignFile, case: Case) -> float | None:
     """Angle from the suspension to the load where its sway turns; None for an arm."""
-    if _is_arm(design):
+    if is_arm(design.plant):
         return None
     pendulum = design.plant.double_pendulum
     below_m = float(case.left.rope_length_m[-1]) + (0.0 if pendulum is None else pendulum.sling_length_m)
     return math.asin(case.residual_m / below_m)
-
-
-def _is_arm(design: DesignFile) -> bool:
-    return design.plant.kind not in {"crane", "double_pendulum"}
 
 
 def simulation_document(design: DesignFile, simulation: Simulation, within_m: float) -> dict[str, Any]:
@@ -130,7 +121,7 @@ def simulation_document(design: DesignFile, simulation: Simulation, within_m: fl
         As for `print_simulation`.
     """
     return {
-        "move": move_text(simulation),
+        "move": move_text(design, simulation),
         "speed_m_s": simulation.speed_m_s,
         "pressed_s": simulation.pressed_s,
         "held_s": simulation.held_s,
@@ -152,26 +143,36 @@ def _case_document(design: DesignFile, case: Case, within_m: float) -> dict[str,
             "rests_s": case.rests_s(within_m),
         },
     )
-    rope = [site.length_m, site.length_m] if site.hoist is None else [site.hoist.from_m, site.hoist.to_m]
+    ends = [site.length_m, site.length_m] if site.hoist is None else [site.hoist.from_m, site.hoist.to_m]
+    has_positions, on_rope = design.plant.position is not None, not is_arm(design.plant)
+    hertz = pendulum_frequency_hz(float(case.left.rope_length_m[-1]))
     return {
         "moved_by": case.contender.name,
         "knob": case.contender.knob,
         **({"for_pendulum": True} if case.contender.for_pendulum else {}),
-        "rope_length_m": None if _is_arm(design) else rope,
-        "frequency_hz": round(pendulum_frequency_hz(site.length_m), _DIGITS) if _is_arm(design) else None,
+        "rope_length_m": ends if on_rope else None,
+        **({"position": ends} if has_positions else {}),
+        "frequency_hz": None if on_rope else round(hertz, _DIGITS),
         **{key: None if value is None else round(value, _DIGITS) for key, value in numbers.items()},
     }
 
 
-def record_text(cases: list[Case]) -> str:
+def record_text(design: DesignFile, cases: list[Case]) -> str:
     """Give a record of one rope as CSV: time, rope, and reference, trolley and sway of every case.
+
+    Of an arm it has frequencies in the place of ropes.
 
     Parameters
     ----------
+    design : DesignFile
+        Whose block moved.
     cases : list of Case
         On one rope.
     """
-    heads, columns = ["time_s", "rope_length_m"], [cases[0].run.time_s, cases[0].run.rope_length_m]
+    run = cases[0].run
+    heads, columns = ["time_s", "rope_length_m"], [run.time_s, run.rope_length_m]
+    if is_arm(design.plant):
+        heads[1], columns[1] = "frequency_hz", pendulum_frequency_hz(1.0) / np.sqrt(run.rope_length_m)
     for case in cases:
         name = case.contender.name.replace(",", "")
         heads += [f"{name}: {what}" for what in ("reference_m_s", "trolley_m", "sway_m")]
@@ -195,10 +196,10 @@ def figures(design: DesignFile, simulation: Simulation) -> Iterator[Figure]:
     for site, cases in simulation.sites():
         time_s = cases[0].run.time_s
         held = (time_s >= simulation.pressed_s) & (time_s < simulation.pressed_s + simulation.held_s)
-        unit = "Hz" if _is_arm(design) else "m of rope"
-        where = "" if site.hoist is not None else f", {place_text(design, site)} {unit}"
+        plant = design.plant
+        where = "" if site.hoist is not None else f", {place_text(plant, site)} {place_unit(plant)}"
         yield simulation_figure(
-            f"{design.name}: {move_text(simulation)}{where}",
+            f"{design.name}: {move_text(design, simulation)}{where}",
             time_s,
             np.where(held, simulation.speed_m_s, 0.0),
             [
@@ -212,9 +213,13 @@ def figures(design: DesignFile, simulation: Simulation) -> Iterator[Figure]:
                 for case in cases
                 if case.contender.knob is not None
             ],
-            rope_length_m=None if site.hoist is None else cases[0].run.rope_length_m,
+            places=None if site.hoist is None else (_place_name(plant), rope_of(site.hoist, 0.0, time_s)),
             tolerance=_tolerance(design, cases),
         )
+
+
+def _place_name(plant: PlantRecord) -> str:
+    return "Rope (m)" if plant.position is None else f"Position ({plant.position.unit})"
 
 
 def _tolerance(design: DesignFile, cases: list[Case]) -> tuple[str, float] | None:

@@ -269,7 +269,8 @@ def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] |
         bank_table.close()
     speed_m_s = None if drive is None else drive.max_speed_m_s
     most_rows = MAX_ROWS if "bank" in root.raw else max(1, len(rows))
-    moves = read_moves(kind, root, max_speed_m_s=speed_m_s, rows=most_rows)
+    unit = plant.positions.unit if plant is not None and plant.positions is not None else None
+    moves = read_moves(kind, root, max_speed_m_s=speed_m_s, rows=most_rows, position_unit=unit)
     for table in (root, plant_table, drive_table, controller_table):
         table.close()
     if name is None or plant is None or drive is None or controller is None:

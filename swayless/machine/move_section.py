@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from swayless.machine.arm_positions import PLACE, PositionUnit
+from swayless.machine.arm_positions import SPEED as POSITION_SPEED
 from swayless.machine.checks import integer, label, quantity
 from swayless.machine.plant_section import FREQUENCY, LENGTH, PlantKind
 from swayless.machine.problems import Check, Place, RefusedError, T, Table, plain
@@ -20,25 +22,69 @@ START = quantity("time", 0.0, 1e4)
 
 MAX_MOVES = 16
 MAX_PLACES = 16
-"""Ropes or frequencies of one move."""
+"""Ropes, positions or frequencies of one move."""
 
-PLACE_KEYS: Mapping[PlantKind, str] = {"crane": "rope_length", "arm": "frequency"}
-_OTHERS_KEYS: Mapping[PlantKind, tuple[str, ...]] = {
-    "crane": ("frequency",),
-    "arm": ("rope_length", "hoist", "wind"),
+
+@dataclass(frozen=True)
+class PlaceKeys:
+    """How the moves of a machine say where it stands.
+
+    Parameters
+    ----------
+    place : str
+        Key of a place where it stands still.
+    check : Check
+        For a place.
+    way : str or None
+        Key of a way from place to place, if there is one.
+    rate : Check
+        For the speed of that way.
+    """
+
+    place: str
+    check: Check[float]
+    way: str | None
+    rate: Check[float]
+
+    @property
+    def all(self) -> tuple[str, ...]:
+        """Both keys."""
+        return (self.place,) if self.way is None else (self.place, self.way)
+
+
+_CRANE = PlaceKeys("rope_length", LENGTH, "hoist", SPEED)
+_ARM = PlaceKeys("frequency", FREQUENCY, None, SPEED)
+_POSITIONS: Mapping[PositionUnit, PlaceKeys] = {
+    "m": PlaceKeys("position", PLACE["m"], "sweep", POSITION_SPEED["m"]),
+    "rad": PlaceKeys("position", PLACE["rad"], "sweep", POSITION_SPEED["rad"]),
+}
+
+PLACE_KEYS = (_CRANE.place, _ARM.place, _POSITIONS["m"].place)
+"""Keys of places, of all machines."""
+
+WAY_KEYS = ("hoist", "sweep")
+"""Keys of ways, of all machines."""
+
+_OWNERS: Mapping[str, str] = {
+    "rope_length": "a crane",
+    "hoist": "a crane",
+    "wind": "a crane",
+    "frequency": "an arm without positions",
+    "position": "an arm with positions",
+    "sweep": "an arm with positions",
 }
 
 
 @dataclass(frozen=True)
 class Hoist:
-    """A hoist at a steady speed.
+    """A hoist at a steady speed, or a sweep from one position of an arm to another.
 
     Parameters
     ----------
     from_m, to_m : float
-        Rope before and after, > 0.
+        Rope before and after, > 0; of an arm positions, in their unit.
     rate_m_s : float
-        Speed of the hoist, > 0.
+        Speed of the hoist, > 0; of an arm that of the position.
     start_s : float
         When it starts.
     """
@@ -85,7 +131,8 @@ class MoveSection:
     rows : tuple of int or None
         Positions of the knob to run; None for all.
     places : tuple of float or None
-        Ropes in m, of an arm frequencies in Hz; None for the ends of the machine's range and its middle.
+        Ropes in m, of an arm frequencies in Hz, or positions in their unit; None for the ends of the
+        machine's range and its middle.
     hoist : Hoist or None
         Instead of `places`.
     wind : Wind or None
@@ -103,7 +150,14 @@ class MoveSection:
     wind: Wind | None = None
 
 
-def read_move(kind: PlantKind, table: Table, *, max_speed_m_s: float | None, rows: int) -> MoveSection | None:
+def read_move(
+    kind: PlantKind,
+    table: Table,
+    *,
+    max_speed_m_s: float | None,
+    rows: int,
+    position_unit: PositionUnit | None = None,
+) -> MoveSection | None:
     """Read one move.
 
     Parameters
@@ -116,6 +170,8 @@ def read_move(kind: PlantKind, table: Table, *, max_speed_m_s: float | None, row
         Full speed of the machine, where it is known.
     rows : int
         How many rows there are.
+    position_unit : "m", "rad" or None
+        Of the positions of an arm that has some.
 
     Returns
     -------
@@ -131,7 +187,7 @@ def read_move(kind: PlantKind, table: Table, *, max_speed_m_s: float | None, row
     (12.0, 3.74, None)
     """
     found_before = len(table.report.problems)
-    place_key = PLACE_KEYS[kind]
+    keys = _CRANE if kind == "crane" else _ARM if position_unit is None else _POSITIONS[position_unit]
     move = MoveSection(
         name=table.take("name", label, None),
         speed_m_s=table.take("speed", SPEED, None),
@@ -139,45 +195,43 @@ def read_move(kind: PlantKind, table: Table, *, max_speed_m_s: float | None, row
         duration_s=table.take("duration", PRESS, None),
         start_s=table.take("start", START, 0.0) or 0.0,
         rows=table.take("row", _one_or_more(integer(1, rows), rows), None),
-        places=table.take(
-            place_key, _one_or_more(LENGTH if kind == "crane" else FREQUENCY, MAX_PLACES), None
-        ),
-        hoist=_hoist(table) if kind == "crane" else None,
+        places=table.take(keys.place, _one_or_more(keys.check, MAX_PLACES), None),
+        hoist=None if keys.way is None else _way(table, keys.way, keys),
         wind=_wind(table) if kind == "crane" else None,
     )
-    _refuse_others(kind, table)
+    _refuse_others((*keys.all, "wind") if kind == "crane" else keys.all, table)
     _refuse_both(table, "distance", "duration")
-    _refuse_both(table, place_key, "hoist")
+    _refuse_both(table, *keys.all)
     if max_speed_m_s is not None and move.speed_m_s is not None and move.speed_m_s > max_speed_m_s:
         table.place("speed").wrong(table.raw["speed"], f"is above max_speed, {max_speed_m_s:g} m/s")
     return None if len(table.report.problems) > found_before else move
 
 
-def _refuse_others(kind: PlantKind, table: Table) -> None:
-    """Report keys that only moves of the other kind of machine have."""
-    other = "an arm" if kind == "crane" else "a crane"
-    for key in _OTHERS_KEYS[kind]:
-        table.asked.append(key)
-        if key in table.raw:
-            table.place(key).wrong(table.raw[key], f"only a move of {other} has this")
+def _refuse_others(own: tuple[str, ...], table: Table) -> None:
+    """Report keys that only moves of other kinds of machines have."""
+    for key, owner in _OWNERS.items():
+        if key not in own:
+            table.asked.append(key)
+            if key in table.raw:
+                table.place(key).wrong(table.raw[key], f"only a move of {owner} has this")
 
 
-def _refuse_both(table: Table, one: str, other: str) -> None:
-    if one in table.raw and other in table.raw:
-        table.place(f"{one} and {other}").problem("exclude each other: keep one")
+def _refuse_both(table: Table, *keys: str) -> None:
+    if len(keys) > 1 and all(key in table.raw for key in keys):
+        table.place(" and ".join(keys)).problem("exclude each other: keep one")
 
 
-def _hoist(table: Table) -> Hoist | None:
-    inner = table.take("hoist", _section, None)
+def _way(table: Table, key: str, keys: PlaceKeys) -> Hoist | None:
+    inner = table.take(key, _section, None)
     if inner is None:
         return None
-    start_m, end_m = inner.need("from", LENGTH), inner.need("to", LENGTH)
-    rate_m_s, start_s = inner.need("rate", SPEED), inner.take("start", START, 0.0)
+    start_m, end_m = inner.need("from", keys.check), inner.need("to", keys.check)
+    rate_m_s, start_s = inner.need("rate", keys.rate), inner.take("start", START, 0.0)
     inner.close()
     if start_m is None or end_m is None or rate_m_s is None or start_s is None:
         return None
     if start_m == end_m:
-        inner.place("to").wrong(inner.raw["to"], "is where the rope begins: a hoist goes somewhere else")
+        inner.place("to").wrong(inner.raw["to"], f"is where it begins: a {key} goes somewhere else")
     return Hoist(start_m, end_m, rate_m_s, start_s)
 
 
@@ -242,13 +296,18 @@ def _sections(value: object) -> list[dict[str, object]]:
 
 
 def read_moves(
-    kind: PlantKind, root: Table, *, max_speed_m_s: float | None, rows: int
+    kind: PlantKind,
+    root: Table,
+    *,
+    max_speed_m_s: float | None,
+    rows: int,
+    position_unit: PositionUnit | None = None,
 ) -> tuple[MoveSection, ...]:
     """Read all moves of a machine file; none is the usual case.
 
     Parameters
     ----------
-    kind, max_speed_m_s, rows
+    kind, max_speed_m_s, rows, position_unit
         As for `read_move`.
     root : Table
         The whole file.
@@ -257,6 +316,8 @@ def read_moves(
     tables = root.take("move", _sections, None) or []
     for position, raw in enumerate(tables, start=1):
         table = Table(raw, root.report, f"[[move]] {position} ")
-        moves.append(read_move(kind, table, max_speed_m_s=max_speed_m_s, rows=rows))
+        moves.append(
+            read_move(kind, table, max_speed_m_s=max_speed_m_s, rows=rows, position_unit=position_unit)
+        )
         table.close()
     return tuple(move for move in moves if move is not None)

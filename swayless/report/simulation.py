@@ -62,7 +62,7 @@ def simulation_figure(
     command_m_s: FloatArray,
     runs: Sequence[SimulatedRun],
     *,
-    rope_length_m: FloatArray | None = None,
+    places: tuple[str, FloatArray] | None = None,
     tolerance: tuple[str, float] | None = None,
 ) -> Figure:
     """Draw one move of a crane, made in several ways.
@@ -75,8 +75,8 @@ def simulation_figure(
         Times, and what the operator asked for.
     runs : sequence of SimulatedRun
         What became of it.
-    rope_length_m : ndarray, optional
-        Drawn below, where the rope is hoisted.
+    places : str and ndarray, optional
+        What is drawn below and its values: the rope where it is hoisted, the position of an arm that turns.
     tolerance : str and float, optional
         What is promised, and the sway in m that this is.
 
@@ -94,7 +94,7 @@ def simulation_figure(
     >>> [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     ['command', 'zv: 2.0 mm left']
     """
-    heights = (2.1, 2.9) if rope_length_m is None else (2.1, 2.9, 1.2)
+    heights = (2.1, 2.9) if places is None else (2.1, 2.9, 1.2)
     with figure_style():
         figure, panels = new_figure(title, heights, labels=[_label(run) for run in runs], sharex=True)
         speeds, sways = panels[:2]
@@ -102,15 +102,16 @@ def simulation_figure(
         lines += _draw_runs(speeds, sways, time_s, runs)
         if tolerance is not None:
             lines += _draw_tolerance(sways, *tolerance)
-        if rope_length_m is not None:
-            panels[2].plot(time_s, rope_length_m, color=INK)
+        if places is not None:
+            panels[2].plot(time_s, places[1], color=INK)
+            panels[2].set_ylabel(places[0])
         _name_axes(panels, time_s)
         legend_beside(speeds, lines)
         return settle(figure)
 
 
 def _name_axes(panels: Sequence[Axes], time_s: FloatArray) -> None:
-    for panel, name in zip(panels, ("Speed (m/s)", "Sway (mm)", "Rope (m)"), strict=False):
+    for panel, name in zip(panels, ("Speed (m/s)", "Sway (mm)"), strict=False):
         panel.set_ylabel(name)
     panels[-1].set_xlabel("Time (s)")
     panels[-1].set_xlim(time_s[0], time_s[-1])

@@ -248,7 +248,7 @@ def test_all_that_is_wrong_is_said_at_once(crane, run):
         "--rope-length = -3",
         "--hoist to: missing",
         '--wind push = "12 kg": is not an acceleration: allowed units are m/s2, cm/s2, mm/s2, in/s2, ft/s2',
-        "--frequency = 0.2: only a move of an arm has this",
+        "--frequency = 0.2: only a move of an arm without positions has this",
         "--rope-length and hoist: exclude each other: keep one",
         "--move = 6: is above max_speed, 0.666667 m/s",
     ]

@@ -51,7 +51,7 @@ def test_the_tolerance_is_drawn_on_both_sides_in_mm():
 def test_a_rope_that_is_hoisted_gets_a_panel():
     rope_m = np.interp(TIME_S, [1.0, 11.0], [8.0, 5.0])
     assert len(drawn().axes) == 2
-    panel = drawn(rope_length_m=rope_m).axes[2]
+    panel = drawn(places=("Rope (m)", rope_m)).axes[2]
     np.testing.assert_array_equal(panel.lines[0].get_ydata(), rope_m)
 
 

@@ -1,0 +1,85 @@
+"""Where a simulated machine stands, as a plant takes it and as a table has it: ropes, positions, frequencies.
+
+Not for: choosing places (`swayless.cli.simulation`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swayless.plant import pendulum_frequency_hz, pendulum_rope_length_m
+
+if TYPE_CHECKING:
+    from swayless.cli.simulated_case import Site
+    from swayless.machine.design_document import PlantRecord
+    from swayless.plant.simulation.trajectory import FloatArray
+
+
+def pendulums_m(plant: PlantRecord, places: FloatArray) -> FloatArray:
+    """Give the ropes at places, or for an arm with positions the pendulums that are as fast.
+
+    Parameters
+    ----------
+    plant : PlantRecord
+        From the design file.
+    places : ndarray
+        Ropes in m, or positions in their unit.
+
+    Returns
+    -------
+    ndarray, of the shape of `places`
+        In m.
+    """
+    if plant.position is None:
+        return places
+    frequency_hz = np.interp(places, plant.position.places, plant.position.frequency_hz)
+    return np.asarray(pendulum_rope_length_m(1.0) / frequency_hz**2)
+
+
+def is_arm(plant: PlantRecord) -> bool:
+    """Whether a plant has no ropes."""
+    return plant.kind not in {"crane", "double_pendulum"}
+
+
+def place_head(plant: PlantRecord) -> str:
+    """Give the head of the column with the places.
+
+    Parameters
+    ----------
+    plant : PlantRecord
+        From the design file.
+    """
+    if plant.position is not None:
+        return f"position [{plant.position.unit}]"
+    return "frequency [Hz]" if is_arm(plant) else "rope [m]"
+
+
+def place_text(plant: PlantRecord, site: Site) -> str:
+    """Write a rope, the position of an arm, or its frequency.
+
+    Parameters
+    ----------
+    plant : PlantRecord
+        From the design file.
+    site : Site
+        Where it stands, or from where to where it goes.
+    """
+    if site.hoist is not None:
+        return f"{site.hoist.from_m:.4g} to {site.hoist.to_m:.4g}"
+    as_given = plant.position is not None or not is_arm(plant)
+    return f"{site.length_m if as_given else pendulum_frequency_hz(site.length_m):.4g}"
+
+
+def place_unit(plant: PlantRecord) -> str:
+    """Give the unit behind a place in a title.
+
+    Parameters
+    ----------
+    plant : PlantRecord
+        From the design file.
+    """
+    if plant.position is not None:
+        return plant.position.unit
+    return "Hz" if is_arm(plant) else "m of rope"
