@@ -31,8 +31,8 @@ BASE = 1 << 16
 MODULUS = BASE + 1
 """A prime. A sum below it and a digit need one correction."""
 
-WHOLE_DIGITS = 2
-"""Digits of a whole number of 32 bits."""
+FEWEST_DIGITS = 2
+"""Digits of a whole number of 32 bits, and of a real at least: loops of one trip are not portable."""
 
 MOST_DIGITS = 7
 """Digits of a real, at most: 112 bits, 53 of them for the smallest double. Nothing then leaves the type."""
@@ -91,7 +91,7 @@ def whole_table(name: str, numbers: Iterable[Any]) -> Table:
     for number in kept:
         if not -(1 << 31) <= number < 1 << 31:
             raise ControllerError(f"table {name}: {number} has more than 32 bits")
-    return Table(name, kept, None, WHOLE_DIGITS)
+    return Table(name, kept, None, FEWEST_DIGITS)
 
 
 def real_table(name: str, numbers: Sequence[Any], number: NumberType) -> Table:
@@ -115,14 +115,14 @@ def real_table(name: str, numbers: Sequence[Any], number: NumberType) -> Table:
     --------
     >>> from swayless.controller.number import number_type
     >>> real_table("ropes", [3.0, 6.5], number_type("double"))
-    Table(name='ropes', numbers=(3.0, 6.5), limit=8.0, digits=1)
+    Table(name='ropes', numbers=(3.0, 6.5), limit=8.0, digits=2)
     """
     sizes = [abs(float(each)) for each in numbers]
     if not all(math.isfinite(size) for size in sizes):
         raise ControllerError(f"table {name}: every number must be finite")
     bits = math.frexp(max(sizes, default=0.0))[1]
     lowest = max((_lowest_bit(size) for size in sizes if size > 0.0), default=0)
-    digits = max(-(-(bits + lowest) // 16), 1)
+    digits = max(-(-(bits + lowest) // 16), FEWEST_DIGITS)
     if digits > MOST_DIGITS:
         raise ControllerError(f"table {name}: {min(sizes):g} and {max(sizes):g} are too far apart in size")
     return Table(name, tuple(numbers), number.scalar(2.0**bits), digits)
@@ -153,7 +153,7 @@ def checksum(tables: Iterable[Table]) -> Checksum | None:
     >>> from swayless.controller.number import number_type
     >>> reals = real_table("amplitudes", [0.25, 0.75], number_type("double"))
     >>> checksum([whole_table("lags", [0, 70_000]), reals])
-    Checksum(first=4465, second=29785)
+    Checksum(first=4465, second=55100)
     """
     first, second = 1, 0
     for table in tables:
