@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
+GOLDEN = Path(__file__).parents[1] / "golden"
 
 
 def _example_in(page: str, language: str, which: int = 0) -> str:
@@ -27,6 +28,18 @@ def arm_text() -> str:
 
 
 @pytest.fixture(scope="session")
+def machine_texts(machine_text: str, arm_text: str) -> tuple[str, ...]:
+    """Machine files whose keys are different."""
+    return machine_text, arm_text
+
+
+@pytest.fixture(scope="session")
 def design_text() -> str:
     """The complete design file of the documentation."""
     return _example_in("design-file.md", "json")
+
+
+@pytest.fixture(scope="session")
+def design_texts(design_text: str) -> tuple[str, ...]:
+    """Design files whose keys are different."""
+    return design_text, (GOLDEN / "elbow-arm" / "elbow_arm.design.json").read_text(encoding="utf-8")

@@ -66,27 +66,31 @@ def test_random_bytes(load: Callable[[Path], object], tmp_path: Path, content: b
 
 
 @FUZZ
-@given(cuts=CUTS)
-def test_mutated_machine_files(tmp_path: Path, machine_text: str, cuts: list[tuple[int, int, bytes]]) -> None:
+@given(which=st.integers(0, 1), cuts=CUTS)
+def test_mutated_machine_files(
+    tmp_path: Path, machine_texts: tuple[str, ...], which: int, cuts: list[tuple[int, int, bytes]]
+) -> None:
     path = tmp_path / "crane.toml"
-    path.write_bytes(_mutated(machine_text.encode(), cuts))
+    path.write_bytes(_mutated(machine_texts[which].encode(), cuts))
     _refuse_or_load(load_machine, path)
 
 
 @FUZZ
-@given(cuts=CUTS)
-def test_mutated_design_files(tmp_path: Path, design_text: str, cuts: list[tuple[int, int, bytes]]) -> None:
+@given(which=st.integers(0, 1), cuts=CUTS)
+def test_mutated_design_files(
+    tmp_path: Path, design_texts: tuple[str, ...], which: int, cuts: list[tuple[int, int, bytes]]
+) -> None:
     path = tmp_path / "gantry.json"
-    path.write_bytes(_mutated(design_text.encode(), cuts))
+    path.write_bytes(_mutated(design_texts[which].encode(), cuts))
     _refuse_or_load(load_design, path)
 
 
 @FUZZ
-@given(line=st.integers(0, 100), value=_one_of(TOML_VALUES))
+@given(which=st.integers(0, 1), line=st.integers(0, 100), value=_one_of(TOML_VALUES))
 def test_machine_files_with_another_value_somewhere(
-    tmp_path: Path, machine_text: str, line: int, value: str
+    tmp_path: Path, machine_texts: tuple[str, ...], which: int, line: int, value: str
 ) -> None:
-    lines = machine_text.splitlines()
+    lines = machine_texts[which].splitlines()
     line %= len(lines)
     lines[line] = lines[line].split("=")[0] + f"= {value}"
     path = tmp_path / "crane.toml"
@@ -95,11 +99,15 @@ def test_machine_files_with_another_value_somewhere(
 
 
 @FUZZ
-@given(steps=st.lists(st.integers(0, 30), min_size=1, max_size=6), value=_one_of(JSON_VALUES).map(json.loads))
+@given(
+    which=st.integers(0, 1),
+    steps=st.lists(st.integers(0, 30), min_size=1, max_size=6),
+    value=_one_of(JSON_VALUES).map(json.loads),
+)
 def test_design_files_with_another_value_somewhere(
-    tmp_path: Path, design_text: str, steps: list[int], value: Any
+    tmp_path: Path, design_texts: tuple[str, ...], which: int, steps: list[int], value: Any
 ) -> None:
-    document = json.loads(design_text)
+    document = json.loads(design_texts[which])
     target: Any = document
     for step in steps:
         keys = list(target) if isinstance(target, dict) else range(len(target))
