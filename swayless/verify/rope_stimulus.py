@@ -64,7 +64,8 @@ def wandering(build: Builder, inputs: NDArray[np.void]) -> NDArray[np.void]:
     order = np.minimum(turned, 2 * places.size - 2 - turned)
     longest = max(1, inputs.size // (6 * places.size))
     stays = build.random.integers(1, longest + 1, inputs.size)
-    inputs["rope_length"] = places[np.repeat(order, stays)[: inputs.size]]
+    moves = np.searchsorted(np.cumsum(stays), np.arange(inputs.size), side="right")
+    inputs["rope_length"] = places[order[moves]]
     inputs["hoist_speed"] = 0
     return inputs
 
