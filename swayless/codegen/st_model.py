@@ -15,12 +15,19 @@ from swayless.codegen.st_rope import st_said
 from swayless.codegen.st_scratch import scratch_of
 from swayless.codegen.st_spacing import strides
 from swayless.codegen.st_state import state_of
+from swayless.codegen.st_status import status_names
 from swayless.codegen.st_tables import StTables
 from swayless.codegen.st_types import Constant, StTypes, Table, Variable, bytes_of
 from swayless.controller.measured import ROPE
-from swayless.controller.original_filter import MOST_RUNS
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.spacing_filter import spacing_of
+
+LOADING = (
+    "After a change of this file load it with a cold start: an online change would keep the old tables.",
+    "Where the runtime stops at floating-point exceptions (in TwinCAT an option of the task), it may stop at",
+    "an input that is not a number, before the block can refuse it: switch that off, or keep these away.",
+)
+"""What a controller may do to the block."""
 
 
 @dataclass(frozen=True)
@@ -121,14 +128,14 @@ class StModel:
         return self.st_said("RopeNow")
 
     @property
-    def st_most_runs(self) -> int:
-        """Runs are numbered up to here; original law only."""
-        return MOST_RUNS
-
-    @property
     def st_bits(self) -> dict[str, int]:
         """Values of the status bits."""
         return {bit.name or "": bit.value for bit in self.settings.status_bits}
+
+    @property
+    def st_status(self) -> dict[str, str]:
+        """Constants of the status bits."""
+        return status_names(self.settings)
 
     @cached_property
     def provenance(self) -> list[str]:
@@ -138,6 +145,7 @@ class StModel:
             "Call the block once per tick, in a task of exactly that cycle; declare one instance per axis.",
             f"Work per call: at most {self._work}, no functions but ABS and TRUNC.",
             *self._memory,
+            *LOADING,
             "",
             "Status is the sum of:",
             *(f"  {bit.value} {measured.explain(bit)}" for bit in self.settings.status_bits),

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from swayless.codegen.features import features_of
 from swayless.controller.settings import ShaperSettings
-from swayless.controller.spaced_taps import SpacedTaps, SpacingLaw
+from swayless.controller.spaced_taps import SpacingLaw
 
 BlockLaw: TypeAlias = Literal["fixed", "phase"] | SpacingLaw
 """What a tap waits for: ticks, a phase of the pendulum, or multiples of a spacing looked up each tick."""
@@ -20,10 +20,7 @@ def law_of(settings: ShaperSettings) -> BlockLaw:
     settings : ShaperSettings
         The block.
     """
-    taps = settings.bank.rows[0].taps
-    if isinstance(taps, SpacedTaps):
-        return taps.law
-    return "fixed" if settings.clock is None else "phase"
+    return features_of(settings).spacing_law or ("fixed" if settings.clock is None else "phase")
 
 
 def parts_in_use(settings: ShaperSettings) -> frozenset[str]:
@@ -42,6 +39,7 @@ def parts_in_use(settings: ShaperSettings) -> frozenset[str]:
         "spacing": settings.is_spaced,
         "rope": features.has_rope,
         "rope rows": features.has_rope_rows,
+        "minimum": features.has_minimum,
         "resolution": features.has_resolution,
         "inching": features.has_inching,
         "waiting": features.has_waiting_rows,

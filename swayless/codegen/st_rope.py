@@ -91,7 +91,5 @@ def rope_constants(settings: ShaperSettings, types: StTypes) -> list[Constant]:
         ("RopeWayPerTick", rope.way_per_tick, "[m] farthest that the rope moves in a tick"),
     ]
     said = [(st_said(rope.measured, name), value, st_said(rope.measured, doc)) for name, value, doc in reals]
-    held = Constant(
-        "MostHeldTicks", "DINT", str(MOST_HELD_TICKS), "[ticks] a held length is counted up to here"
-    )
-    return [*types.constants(said), held]
+    held = rope.measured.said("[ticks] a held length is counted up to here")
+    return [*types.constants(said), Constant("MostHeldTicks", "DINT", str(MOST_HELD_TICKS), held)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swayless.codegen.st_parts import law_of
 from swayless.codegen.st_types import Constant, StTypes, Table, Variable, st_table
+from swayless.controller.original_filter import MOST_RUNS
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.spacing import Spacing
 from swayless.controller.spacing_filter import spacing_of
@@ -39,7 +40,10 @@ def spacing_constants(settings: ShaperSettings) -> list[Constant]:
     if not settings.is_spaced:
         return []
     last = len(spacing_of(settings).ticks) - 1
-    return [Constant("LastPiece", "DINT", str(last), "last piece of the table of spacings")]
+    pieces = Constant("LastPiece", "DINT", str(last), "last piece of the table of spacings")
+    if law_of(settings) == "modified":
+        return [pieces]
+    return [pieces, Constant("MostRuns", "DINT", str(MOST_RUNS), "runs are numbered up to here")]
 
 
 def spacing_tables(settings: ShaperSettings, types: StTypes) -> list[Table]:

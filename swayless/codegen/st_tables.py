@@ -7,6 +7,7 @@ from swayless.codegen.st_parts import parts_in_use
 from swayless.codegen.st_phase import phase_constants, phase_tables
 from swayless.codegen.st_rope import rope_constants
 from swayless.codegen.st_spacing import spacing_constants, spacing_tables
+from swayless.codegen.st_status import status_constants
 from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, st_table
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.controller.ramp import Glider
@@ -44,6 +45,7 @@ class StTables:
         return [
             *whole,
             *types.constants(reals),
+            *status_constants(settings),
             *rope_constants(settings, types),
             *spacing_constants(settings),
             *phase_constants(settings, types),

@@ -146,7 +146,7 @@ def test_runs_of_the_original_law_can_be_numbered_anew_after_as_many_as_the_ring
     inputs["emergency_stop"] = np.arange(3000) % 3 == 0
     inputs["command"] = np.where(np.arange(3000) % 3 < 2, 0.0, 0.4)  # so that a run has one tick
     text = text_of(settings)
-    assert f"RunNumber >= {MOST_RUNS} THEN" in text
+    assert f"MostRuns : DINT := {MOST_RUNS};" in text
     assert difference(settings, inputs, text.replace(str(MOST_RUNS), str(cells))) is None
     assert difference(settings, inputs, text.replace(str(MOST_RUNS), "2")) is not None
 
