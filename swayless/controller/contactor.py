@@ -66,5 +66,5 @@ def check_contactor(operator: OperatorSettings, bank: Bank, limits: CommandLimit
         raise ControllerError(
             "inching_speed_m_s: a contactor drive inches at one of its speeds or not at all"
         )
-    if operator.slow_command is not None and operator.slow_command < commands[0]:
+    if operator.slow_command is not None and operator.slow_command not in commands:
         raise ControllerError("slow_speed_m_s: below the slowest of contactor_speeds_m_s nothing moves")

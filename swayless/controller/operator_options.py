@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from swayless.controller.contactor import quantised
 from swayless.controller.limits import CommandLimits, command_units
 from swayless.controller.number import NumberType, as_written
 from swayless.controller.operator_settings import OperatorSettings, StepSettings, WaySettings
@@ -117,13 +118,14 @@ def operator_settings(options: OperatorOptions, bank: Bank, limits: CommandLimit
     steps = None
     if options.step_sizes_m is not None:
         steps = made.steps(options.step_sizes_m, options.step_speed_m_s)
+    contactor = made.contactor(options.contactor_speeds_m_s or ())
     slow_m_s, margin_m, offset_m = options.slow_speed_m_s, options.limit_margin_m, options.rope_offset_m
     return OperatorSettings(
         steps=steps,
         has_stop_switches=options.stop_switches,
-        slow_command=None if slow_m_s is None else made.command("slow_speed_m_s", slow_m_s),
+        slow_command=None if slow_m_s is None else made.slow(slow_m_s, contactor),
         way=None if margin_m is None else made.way(margin_m, steps),
-        contactor_commands=made.contactor(options.contactor_speeds_m_s or ()),
+        contactor_commands=contactor,
         has_drive_feedback=options.drive_feedback,
         has_speed_limit=options.speed_limit,
         rope_offset=None if offset_m is None else made.offset(offset_m),
@@ -143,6 +145,12 @@ class _Maker:
     def command(self, name: str, speed_m_s: float) -> Any:
         """Bring a speed to the grid of the ramp."""
         return self._grid.floor(self._within_maximum(name, speed_m_s))
+
+    def slow(self, speed_m_s: float, contactor: tuple[Any, ...]) -> Any:
+        """Bring the slow speed to the grid of the ramp, or to what a contactor drive knows."""
+        if not contactor:
+            return self.command("slow_speed_m_s", speed_m_s)
+        return quantised(self._within_maximum("slow_speed_m_s", speed_m_s), contactor, self._number.scalar(0))
 
     def steps(self, sizes_m: tuple[float, ...], speed_m_s: float | None) -> StepSettings:
         """Make the constants of Step Mode."""

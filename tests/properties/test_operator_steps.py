@@ -9,10 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from swayless.controller import CommandShaper, Status
+from swayless.plant import STANDARD_GRAVITY_M_S2
 from tests.properties.strategies import NUMBERS, examples
 from tests.unit.controller.blocks import fork, run
 from tests.unit.controller.operator_blocks import (
     KINDS,
+    ROPE_LENGTH_M,
     STEP_SIZES_M,
     hands_off,
     operator_block,
@@ -263,3 +265,20 @@ def test_minimum_resolution_and_inching_do_not_apply_to_steps(number):
     expected, outs = CommandShaper(shaped), CommandShaper(asked)
     ticks = [*start, *[hands_off(shaped)] * 60]
     assert [o.reference for o in run(expected, ticks)] == [o.reference for o in run(outs, ticks)]
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("size", [1, 2, 3])
+def test_steps_swing_no_more_than_the_guarantee_of_their_row_allows(number, size):
+    settings = step_block("phase", number)
+    swing = []
+    for enable in (False, True):  # without the row the same commands, unshaped
+        shaper = CommandShaper(settings)
+        press = hands_off(settings, step_forward=True, step_size=size, enable=enable)
+        outs = run(shaper, [hands_off(settings), press]) + to_rest(shaper, hands_off(settings, enable=enable))
+        speeds = np.array([0.0] + [float(out.reference) for out in outs])
+        turn = np.sqrt(STANDARD_GRAVITY_M_S2 / ROPE_LENGTH_M) * settings.tick_s
+        swing.append(abs(np.sum(np.diff(speeds) * np.exp(1j * turn * np.arange(speeds.size - 1)))))
+    # In int32 each reference is rounded to a count, which swings by as much.
+    slack = 2.0 * len(speeds) ** 0.5 if number == "int32" else 0.0
+    assert swing[1] <= settings.bank.rows[0].taps.guarantee.tolerance * swing[0] + slack
