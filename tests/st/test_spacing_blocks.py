@@ -181,6 +181,7 @@ def test_head_says_the_law_its_memory_and_its_work(law):
     head = text_of(settings).split("*)")[0]
     assert f"law {law}" in head
     assert "at most 3 taps, and a look-up of 5 steps; no division, no functions but ABS and TRUNC" in head
+    assert "load it with a cold start" in head
     stated = re.search(r"Memory: (\d+) bytes of variables for each instance, (\d+) of tables", head)
     rings = 121 * (8 + 8 + 4)
     assert rings < int(stated[1]) < rings + 500
