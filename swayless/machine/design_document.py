@@ -88,9 +88,9 @@ class PlantRecord(Record):
         if self.position is not None:
             if self.kind != "arm":
                 yield "position", f'is not null, and kind = "{self.kind}"'
-            found = (min(self.position.frequency_hz), max(self.position.frequency_hz))
-            if self.frequency_hz != found:
-                yield "frequency_hz", f"is not the range of position.frequency_hz, {list(found)}"
+            whole_hz = (min(self.position.frequency_hz), max(self.position.frequency_hz))
+            if self.frequency_hz != whole_hz:
+                yield "frequency_hz", f"is not the range of position.frequency_hz, {list(whole_hz)}"
         if (self.kind == "double_pendulum") != (self.double_pendulum is not None):
             found = "null" if self.double_pendulum is None else "not null"
             yield "double_pendulum", f'is {found}, and kind = "{self.kind}"'

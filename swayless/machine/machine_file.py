@@ -257,7 +257,7 @@ def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] |
     if plant is not None and drive is not None:
         ropes = driven_ropes(drive.speed_loop, plant, drive_table, law=law)
         plant = plant if ropes is None else plant_below(plant, ropes)
-    if law in FAMILIES_OF_LAW and plant is not None:
+    if law is not None and law in FAMILIES_OF_LAW and plant is not None:
         check_followed(law, plant, plant_table, contactor=contactor)
     rows = _read_rows(kind, root, plant, law, ropes, contactor=contactor)
     bank_table = with_options(_section(root, "bank", {}), bank_options or {})
