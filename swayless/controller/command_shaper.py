@@ -9,10 +9,11 @@ from __future__ import annotations
 from typing import Any
 
 from swayless.controller.command_reader import CommandReader
+from swayless.controller.diagnosis import Diagnosis
 from swayless.controller.ends import Switches
 from swayless.controller.foretelling import Foretelling
 from swayless.controller.motion import Motion, filter_of
-from swayless.controller.output_units import OutputUnits, residual_bounds
+from swayless.controller.output_units import OutputUnits
 from swayless.controller.pins import ShaperInput, ShaperOutput
 from swayless.controller.rope import Rope
 from swayless.controller.settings import ShaperSettings
@@ -44,7 +45,6 @@ class CommandShaper:
     def __init__(self, settings: ShaperSettings) -> None:
         self._settings, self._by_rope = settings, settings.bank.by_rope
         self._zero = settings.number.scalar(0)
-        self._bounds = residual_bounds(settings)
         self._units = OutputUnits(settings)
         self._foretelling = Foretelling(settings)
         self.init()
@@ -54,6 +54,7 @@ class CommandShaper:
         settings, operator = self._settings, self._settings.operator
         self._filter = filter_of(settings)
         self._rope = Rope(settings.rope, settings.number) if settings.rope else None
+        self._diagnosis = Diagnosis(settings)
         self._motion, self._stops = Motion(settings, self._filter), Stops(settings)
         self._reader = CommandReader(settings)
         self._tuning = Tuning(settings) if operator.is_tuned else None
@@ -79,6 +80,8 @@ class CommandShaper:
         ShaperOutput
             Outputs of the tick.
         """
+        if not self._diagnosis.tables_match:
+            return self._diagnosis.refusal
         motion, stops = self._motion, self._stops
         if self._tuning is not None:
             inputs = self._tuning.read(inputs)
@@ -96,6 +99,7 @@ class CommandShaper:
             self._stop(at_once=stops.is_halted)
         else:
             self._move(command)
+        self._diagnosis.watch(motion.reference, inputs.actual_speed, expected=not stops.is_halted)
         return self._outputs()
 
     def _read_rope(self, inputs: ShaperInput) -> int:
@@ -182,23 +186,26 @@ class CommandShaper:
         motion = self._motion
         to_come = self._foretelling.foretell(motion, self._stops, self._steps, self._wanted_row)
         row = 0 if self._stops.is_latched else motion.row
-        status = self._full_status()
+        status, diagnosis = self._full_status(), self._diagnosis
+        length = self._zero if self._rope is None else self._rope.length
         return ShaperOutput(
             reference=motion.reference,
             stop_distance=self._units.distance(to_come.total),
             stop_time_s=self._units.time_s(to_come.ticks),
             stop_time_ticks=to_come.ticks,
-            residual_bound=self._bounds[row],
+            residual_bound=diagnosis.residual_bound(row, length, status),
             row=motion.row,
             settled=motion.is_settled,
             active=row > 0,
             error=(status & _ERRORS) != 0,
             status=status,
+            predicted_sway=diagnosis.predicted_sway(motion.reference, motion.row, length),
+            design_id=diagnosis.design_id,
         )
 
     def _full_status(self) -> int:
         motion = self._motion
-        status = self._status | self._reader.status | self._stops.status
+        status = self._status | self._reader.status | self._stops.status | self._diagnosis.status
         for part in (self._tuning, self._switches, self._travel, self._steps):
             if part is not None:
                 status |= part.status

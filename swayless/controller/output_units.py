@@ -9,11 +9,9 @@ import math
 from typing import Any
 
 from swayless.controller.number import as_written
+from swayless.controller.rope_bound import RESIDUAL_PPM
 from swayless.controller.settings import ShaperSettings
 from swayless.errors import ControllerError
-
-RESIDUAL_PPM = 1_000_000
-"""In int32 the residual bound is in millionths."""
 
 TIME_SHIFT = 32
 """In int32 a tick is this fixed-point fraction of a second, rounded down."""

@@ -97,6 +97,11 @@ class ShaperOutput(NamedTuple):
         An input cannot be right; the status says which.
     status : int
         The status word, bits as in :class:`~swayless.controller.status.Status`.
+    predicted_sway : float or int
+        Where the load hangs as the tick begins, by the linear model: m, in int32 mm, ahead of the trolley.
+        0 in blocks without a model (`sway`).
+    design_id : int
+        Which design the block runs, 32 bits; 0 in blocks without design facts (`diagnostics`).
     """
 
     reference: Any
@@ -109,3 +114,5 @@ class ShaperOutput(NamedTuple):
     active: bool
     error: bool
     status: int
+    predicted_sway: Any = 0
+    design_id: int = 0

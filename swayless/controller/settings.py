@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from swayless.controller.contactor import check_contactor
+from swayless.controller.diagnostics import NO_DIAGNOSTICS, Diagnostics
 from swayless.controller.limits import CommandLimits
 from swayless.controller.number import NumberType
 from swayless.controller.operator_settings import NO_OPTIONS, OperatorSettings
@@ -66,6 +67,8 @@ class ShaperSettings:
         What the block knows of a measured rope; the phase clock needs it.
     operator : OperatorSettings
         Steps, switches and whatever else is there only where asked for; none of it unless given.
+    diagnostics : Diagnostics
+        What the block says of itself besides; nothing unless given.
 
     Raises
     ------
@@ -78,6 +81,7 @@ class ShaperSettings:
     limits: CommandLimits
     rope: RopeSettings | None = None
     operator: OperatorSettings = NO_OPTIONS
+    diagnostics: Diagnostics = NO_DIAGNOSTICS
 
     def __post_init__(self) -> None:
         follows = self.clock is not None or self.bank.by_rope is not None or self.is_spaced
@@ -85,6 +89,7 @@ class ShaperSettings:
             raise ControllerError("taps that follow the rope, and rows chosen by it, need a measured rope")
         if self.rope is None and self.operator.rope_offset is not None:
             raise ControllerError("rope_offset_m: needs a measured rope")
+        self.diagnostics.check(self.bank, self.rope)
         if self.operator.contactor_commands:
             check_contactor(self.operator, self.bank, self.limits)
         if self.number.is_integer and self.clock is None:
@@ -136,7 +141,7 @@ class ShaperSettings:
     def status_bits(self) -> tuple[Status, ...]:
         """Bits of the status word that the block can set."""
         absent = Status(0) if self.rope is not None else ROPE_BITS
-        absent |= OPTIONAL_BITS & ~self.operator.status_bits
+        absent |= OPTIONAL_BITS & ~(self.operator.status_bits | self.diagnostics.status_bits)
         return tuple(bit for bit in Status if not bit & absent)
 
     @cached_property

@@ -106,7 +106,7 @@ def fork(shaper):
     """An independent copy of a shaper; what never changes is shared."""
     settings = shaper._settings
     constants = (settings, settings.limits, settings.number, settings.row_tables, settings.operator)
-    constants += (settings.clock, shaper._units, shaper._foretelling, shaper._bounds)
+    constants += (settings.clock, settings.diagnostics, shaper._units, shaper._foretelling)
     return copy.deepcopy(shaper, {id(value): value for value in constants})
 
 
