@@ -42,7 +42,7 @@ class HeldRopes:
 
 
 def residual_on_ropes(impulses: Impulses, ropes: DrivenRopes, rope_length_m: FloatArray) -> FloatArray:
-    """Residual vibration at the true mode of each rope; infinite on ropes on which nothing vibrates.
+    """Residual vibration at the true mode of each rope; infinite where no vibration is clearly the swing.
 
     Parameters
     ----------

@@ -109,11 +109,20 @@ class DrivenRopes:
             )
 
     def modes(self, rope_length_m: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Give frequency in Hz and damping ratio on many ropes; nan where nothing vibrates."""
-        modulus_rad_s, ratio = pole_figures(
-            servo_drive_poles(self.drive, rope_length_m, self.damping_ratio)[..., 0]
+        """Give frequency in Hz and damping ratio on many ropes; nan where no vibration is clearly the swing.
+
+        Examples
+        --------
+        >>> ropes = DrivenRopes(ServoDrive.from_lag(2000.0, 6000.0, 0.1), (3.0, 6.0))
+        >>> [values.round(4).tolist() for values in ropes.modes([3.0, 6.0])]
+        [[0.2886, 0.2038], [0.0679, 0.048]]
+        """
+        modulus_rad_s, ratio = self._vibrations(rope_length_m)
+        clear = ~_unclear(ratio)
+        return (
+            np.where(clear, modulus_rad_s[..., 0] / (2.0 * math.pi), np.nan),
+            np.where(clear, ratio[..., 0], np.nan),
         )
-        return modulus_rad_s / (2.0 * math.pi), ratio
 
     def mode(self, rope_length_m: float) -> Mode:
         """Give the mode of a rope, > 0 m.
@@ -209,24 +218,33 @@ class DrivenRopes:
             return sign * max(sign * float(ratio[top]), -float(found.fun))
         return float(ratio[top])
 
+    def _vibrations(self, rope_length_m: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Give angular frequency and damping ratio of both vibrations, the least damped first."""
+        return pole_figures(servo_drive_poles(self.drive, rope_length_m, self.damping_ratio))
+
     def _clear_modes(self, lengths_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give the modes of ropes, and refuse those on which none, or more than one, is the swing."""
-        modulus_rad_s, ratio = pole_figures(servo_drive_poles(self.drive, lengths_m, self.damping_ratio))
+        modulus_rad_s, ratio = self._vibrations(lengths_m)
         still = np.isnan(ratio[:, 0])
         if still.any():
             raise PlantError(
                 f"the speed loop damps the load on {float(lengths_m[still][0]):.4g} m of rope so well that"
                 " nothing vibrates; a mode needs a stiffer speed loop"
             )
-        loop = ratio[:, 1]
-        unclear = (loop < LEAST_LOOP_DAMPING) | (loop < _LOOP_TO_SWING * ratio[:, 0])
+        unclear = _unclear(ratio)
         if unclear.any():
             at = int(unclear.argmax())
             first_hz, second_hz = modulus_rad_s[at] / (2.0 * math.pi)
             raise PlantError(
                 f"trolley, load and speed loop have two vibrations on {float(lengths_m[at]):.4g} m of rope:"
                 f" {first_hz:.4g} Hz with damping ratio {ratio[at, 0]:.3g} and {second_hz:.4g} Hz with"
-                f" {loop[at]:.3g}, which must be at least {LEAST_LOOP_DAMPING:g} and {_LOOP_TO_SWING:g} times"
-                " the first; a longer integral time does"
+                f" {ratio[at, 1]:.3g}, which must be at least {LEAST_LOOP_DAMPING:g} and"
+                f" {_LOOP_TO_SWING:g} times the first; a longer integral time does"
             )
         return modulus_rad_s[:, 0] / (2.0 * math.pi), ratio[:, 0]
+
+
+def _unclear(ratio: FloatArray) -> NDArray[np.bool_]:
+    """Tell where nothing vibrates, or a loop so little damped that it is no less a swing than the load."""
+    swing, loop = ratio[..., 0], ratio[..., 1]
+    return np.asarray(np.isnan(swing) | (loop < LEAST_LOOP_DAMPING) | (loop < _LOOP_TO_SWING * swing))

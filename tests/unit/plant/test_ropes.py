@@ -102,3 +102,10 @@ def test_one_rope_is_a_range_too():
     ropes = DrivenRopes(STIFF, (6.0, 6.0))
     assert ropes.frequency_range_hz((6.0, 6.0)) == (ropes.mode(6.0).frequency_hz,) * 2
     assert ropes.damping_range((6.0, 6.0)) == (ropes.mode(6.0).damping_ratio,) * 2
+
+
+def test_ropes_beyond_the_range_count_while_the_swing_is_clear():
+    """On a rope of 2 cm the load swings as fast as the loop: there is no telling which is which."""
+    ropes = DrivenRopes(ServoDrive.from_lag(2000.0, 1000.0, 0.1, 0.024), (1.0, 9.0))
+    frequency_hz, ratio = ropes.modes([1.0, 9.0, 0.02])
+    assert np.isnan(frequency_hz).tolist() == np.isnan(ratio).tolist() == [False, False, True]
