@@ -50,7 +50,9 @@ class DrivenTrajectory(CraneTrajectory):
         """
         drive, gravity, length_m = self.drive, STANDARD_GRAVITY_M_S2, self.rope_length_m
         lengths_m, place = np.unique(length_m, return_inverse=True)
-        s = servo_drive_poles(drive, lengths_m, self.damping_ratio)[..., 0][place.reshape(length_m.shape)]
+        poles = servo_drive_poles(drive, lengths_m, self.damping_ratio)[..., 0]
+        vibrates = np.isfinite(poles)[place].reshape(length_m.shape)
+        s = np.where(np.isfinite(poles), poles, 1j)[place].reshape(length_m.shape)
         damping_m_s = 2.0 * self.damping_ratio * np.sqrt(gravity * length_m)
         spring = damping_m_s * s + gravity
         force = (1.0 / length_m + s**2 / spring) * drive.trolley_mass_kg / drive.load_mass_kg
@@ -60,7 +62,7 @@ class DrivenTrajectory(CraneTrajectory):
         state = state - of_speed * self.error_m_s + of_behind * self.behind_m
         moved = (length_m * s**2 + spring) / s
         own = of_swing + s - of_speed * moved + of_behind * moved / s
-        return np.asarray(2.0 * abs(state / own))
+        return np.where(vibrates, 2.0 * abs(state / own), np.nan)
 
 
 @dataclass(frozen=True)

@@ -77,3 +77,34 @@ def test_wind_on_the_load_pushes_the_trolley_away_until_the_integral_holds_it():
     expected_m = 6000.0 * 0.2 / DRIVES[1].integral_gain_n_m
     assert run.trolley_m[-1] == pytest.approx(expected_m, rel=1e-3)
     assert run.trolley_m_s[-1] == pytest.approx(0.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("drive", DRIVES, ids=["P", "PI"])
+def test_the_amplitude_is_that_of_the_true_mode_from_the_first_tick_on(drive):
+    """Whatever trolley and loop still do: once the reference stays it decays as the mode does."""
+    run = DrivenCrane(drive, 0.01).simulate(np.full(600, 0.02), ROPE_M, tick_s=TICK_S)
+    mode = servo_drive_mode(drive, ROPE_M, 0.01)
+    decay = np.exp(-mode.damping_ratio * mode.angular_frequency_rad_s * run.time_s)
+    steady = run.amplitude_rad[1:] / decay[1:]
+    # A swing of 3 mrad is linear to 1e-6; first steps of half a time constant err by a few 1e-5.
+    np.testing.assert_allclose(steady, steady[-1], rtol=1e-4)
+    # Once all else has died out, it is what the swing's own peaks reach.
+    quarter = round(0.5 * mode.damped_period_s / TICK_S)
+    window = slice(600 - quarter, 600)
+    envelope = run.amplitude_rad[window] / decay[window]
+    assert (abs(run.swing_rad[window]) / decay[window]).max() == pytest.approx(envelope.mean(), rel=3e-3)
+
+
+def test_the_amplitudes_of_many_cases_are_those_of_each_alone():
+    references, ropes = np.array([[0.1] * 50, [0.3] * 50]), np.array([[4.0] * 51, np.linspace(5.0, 4.5, 51)])
+    together = DrivenCrane(DRIVES[1]).simulate(references, ropes, tick_s=TICK_S).amplitude_m
+    for case in (0, 1):
+        alone = DrivenCrane(DRIVES[1]).simulate(references[case], ropes[case], tick_s=TICK_S).amplitude_m
+        # 1e-6 m: the shorter rope among them makes the steps of all shorter.
+        np.testing.assert_allclose(together[case], alone, rtol=0.0, atol=1e-6)
+
+
+def test_there_is_no_amplitude_on_a_rope_on_which_nothing_vibrates():
+    drive = ServoDrive.from_lag(100.0, 3000.0, 0.8)
+    run = DrivenCrane(drive).simulate(np.full(5, 0.1), 1.2, tick_s=TICK_S)
+    assert np.isnan(run.amplitude_rad).all()
