@@ -1,0 +1,95 @@
+"""Whether a swing is that of a load on a rope, and its fit. Not for: the wave itself (`waveform`)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from swayless.plant.identification.fitting import Fit, fit
+from swayless.plant.identification.record import Quantity, SwingRecord
+from swayless.plant.identification.swing_model import COSINE, DECAY, FREQUENCY, SINE
+from swayless.plant.identification.waveform import WAVEFORMS, Waveform, lag_s
+from swayless.plant.pendulum import pendulum_frequency_hz
+
+SHORTEST_ROPE_M = 0.1
+"""An angle that swings faster than a load on such a rope is taken for that of an arm."""
+
+LARGEST_SWING_RAD = 0.8
+"""Cranes swing less. An angle that seems to swing more may be in another unit: it has to show its lag."""
+
+_DECISIVE = 4.0
+"""Difference of log likelihoods at which the record decides: odds of 55 to 1."""
+
+_TINY = float(np.finfo(np.float64).tiny)
+
+
+def as_pendulum(single: Fit, record: SwingRecord, pendulum: bool | None) -> tuple[Fit, Fit | None]:
+    """Fit the wave of a load on a rope where that may be what swings.
+
+    Parameters
+    ----------
+    single : Fit
+        One linear mode.
+    record : SwingRecord
+    pendulum : bool or None
+        As for `identify_swing`.
+
+    Returns
+    -------
+    taken, other : Fit, Fit or None
+        The fit to take, and the one that nobody has ruled out: neither the caller, nor the record, nor
+        physics. None if there is no such.
+    """
+    waveform = WAVEFORMS.get(record.quantity)
+    if waveform is None or pendulum is False:
+        return single, None
+    fastest_rad_s = 2.0 * np.pi * pendulum_frequency_hz(SHORTEST_ROPE_M)
+    if pendulum is None and single.mode(0)[FREQUENCY] > fastest_rad_s:
+        return single, None
+    bent = _bent(single, record, waveform)
+    if pendulum:
+        return bent, None
+    gain = single.freedom / 2.0 * float(np.log(max(single.squares, _TINY) / max(bent.squares, _TINY)))
+    if abs(gain) > _DECISIVE:
+        return (bent if gain > 0.0 else single), None
+    usual = record.quantity is Quantity.angle and first_angle_rad(bent) < LARGEST_SWING_RAD
+    return (bent, single) if usual else (single, bent)
+
+
+def _bent(single: Fit, record: SwingRecord, waveform: Waveform) -> Fit:
+    """Fit the bent wave, starting at the frequency whose lagging phase is nearest to the linear one."""
+    model = replace(single.model, waveform=waveform)
+    start = single.parameters.copy()
+    angle = waveform.angle_per_value(float(start[FREQUENCY])) * single.amplitude(0)
+    lag, _, _ = lag_s(model.time_s, float(start[DECAY]), angle)
+    weight = np.exp(-2.0 * max(0.0, float(start[DECAY])) * model.time_s)
+    slope, late = np.polynomial.polynomial.polyfit(model.time_s, lag, 1, w=np.sqrt(weight))[::-1]
+    start[FREQUENCY] /= 1.0 - slope
+    turn = complex(start[COSINE], -start[SINE]) * np.exp(1j * start[FREQUENCY] * late)
+    start[COSINE], start[SINE] = turn.real, -turn.imag
+    return fit(model, record.value, start)
+
+
+def first_angle_rad(found: Fit) -> float:
+    """Give the angle of the first swing of a load on a rope; 0 for a linear mode."""
+    waveform = found.model.waveform
+    return (
+        0.0
+        if waveform is None
+        else waveform.angle_per_value(float(found.mode(0)[FREQUENCY])) * found.amplitude(0)
+    )
+
+
+def cut_off(found: Fit, damping_ratio: float) -> tuple[float, float]:
+    """Give what the series of the wave leave out: standard deviations of relative frequency and of damping.
+
+    The series end, and the action falls as it does on the average over a swing: to first order in damping.
+    The factors cover the errors against integrated pendulums of up to 0.8 rad and a damping ratio of 0.1.
+    """
+    waveform = found.model.waveform
+    if waveform is None:
+        return 0.0, 0.0
+    angle = first_angle_rad(found)
+    averaged = waveform.averaging * (damping_ratio * angle) ** 2
+    return 2e-4 * angle**8 + averaged, 2e-4 * damping_ratio * angle**4 + averaged / 4.0

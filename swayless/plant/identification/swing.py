@@ -1,0 +1,249 @@
+"""Frequency and damping of a measured free swing, with their uncertainty and what the record cannot show.
+
+Maximum likelihood for decaying modes, offset and drift in noise; the swing of a load on a rope is slower
+the farther it goes, and is corrected for that.
+
+Not for: peak heights (`peaks`), stopwatches (`stopwatch`), or several ropes at once (`rope_offset`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from swayless.errors import PlantError
+from swayless.plant.identification.fitting import Fit, fit
+from swayless.plant.identification.identified_mode import IdentifiedMode
+from swayless.plant.identification.noise import Noise, noise_near
+from swayless.plant.identification.order import are_told_apart, second_mode, single_mode, turns_apart
+from swayless.plant.identification.pendulum_swing import as_pendulum, cut_off, first_angle_rad
+from swayless.plant.identification.record import FloatArray, SwingRecord
+from swayless.plant.identification.swing_model import DECAY, FREQUENCY, PER_MODE
+
+MOST_MODES = 2
+
+LARGEST_DAMPING = 0.5
+"""What decays faster is no swing that a shaper could be designed for."""
+
+_SAME_FREQUENCY_TURNS = 0.15
+"""Modes that part by less over the record look like one whose decay is not exponential."""
+
+_OTHER_MODEL = 0.75
+"""Standard deviation for a model that may be the true one, in its distance: two of them cover it well."""
+
+_NUMERICAL = 1e-10
+"""What the search leaves of the phase over the whole record, in rad."""
+
+_SECOND_MODE_FLOOR = 30.0
+"""Square of a second mode's amplitude, over variance / (n / 2), at which the tests of `order` find it."""
+
+
+@dataclass(frozen=True, eq=False)
+class IdentifiedSwing:
+    """What a record of a free swing tells.
+
+    Parameters
+    ----------
+    record : SwingRecord
+    fit : Fit
+        The model with its parameters.
+    modes : tuple of IdentifiedMode
+        One or two, the one of the larger amplitude first.
+    noise : Noise
+        Near the first mode.
+    is_exponential : bool
+        False if the swing decays in another way: the damping ratio is then an average over the record.
+    is_decided : bool
+        False if it may be that of a load on a rope or a linear one, as far as the record shows; the
+        uncertainty then covers both.
+    """
+
+    record: SwingRecord
+    fit: Fit
+    modes: tuple[IdentifiedMode, ...]
+    noise: Noise
+    is_exponential: bool = True
+    is_decided: bool = True
+
+    @property
+    def swings(self) -> float:
+        """How many swings of the first mode the record holds."""
+        return self.record.duration_s / self.modes[0].mode.damped_period_s
+
+    @property
+    def slowed_ratio(self) -> float:
+        """How much slower the first swing is for its size, relative to a small one; 0 for a linear mode."""
+        return first_angle_rad(self.fit) ** 2 / 16.0
+
+    @property
+    def second_mode_floor(self) -> float:
+        """Amplitude below which a second mode would not have been seen, in the unit of the record."""
+        return self.noise.rms * float(np.sqrt(2.0 * _SECOND_MODE_FLOOR / self.record.time_s.size))
+
+    @property
+    def drift(self) -> float:
+        """How far the middle of the swing moved over the record, in its unit."""
+        return float(np.ptp(self.middle(self.record.time_s)))
+
+    def middle(self, time_s: FloatArray) -> FloatArray:
+        """Give the middle of the swing, offset and drift, at times from the first sample to the last."""
+        model = replace(self.fit.model, time_s=time_s - self.record.time_s[0])
+        return np.asarray(model.drift @ self.fit.parameters[PER_MODE * model.modes :])
+
+
+def identify_swing(
+    record: SwingRecord, *, pendulum: bool | None = None, modes: int | None = None
+) -> IdentifiedSwing:
+    """Find the modes of a free swing.
+
+    Parameters
+    ----------
+    record : SwingRecord
+        At least one swing.
+    pendulum : bool or None
+        Whether it is a load on a rope, whose large swings are slower. None takes an angle for one, unless it
+        turns faster than any rope or the record says that its frequency stays; what the record leaves
+        open widens the uncertainty.
+    modes : int or None
+        1 or 2; None takes as many as the record shows.
+
+    Raises
+    ------
+    PlantError
+        If the record shows no swing, or two modes that it does not tell apart.
+
+    References
+    ----------
+    S. Kay, *Fundamentals of Statistical Signal Processing: Estimation Theory* (1993), sections 7.8 (least
+    squares as maximum likelihood) and 3.4 (Cramer-Rao).
+
+    Examples
+    --------
+    >>> time_s = np.linspace(0.0, 60.0, 1201)
+    >>> noise = np.random.default_rng(1).normal(size=time_s.size)
+    >>> swing = 0.1 * np.exp(-0.01 * time_s) * np.cos(1.5 * time_s) + 0.005 * noise
+    >>> mode = identify_swing(SwingRecord(time_s, swing)).modes[0]
+    >>> abs(mode.frequency_hz - 1.5 / (2.0 * np.pi)) < 2.0 * mode.frequency_hz_std < 1e-4
+    True
+    """
+    if pendulum and record.quantity == "value":
+        raise PlantError("a load on a rope is corrected for large swings: say what unit the record is in")
+    if modes not in {None, *range(1, MOST_MODES + 1)}:
+        raise PlantError(f"modes = {modes!r}: must be 1 or 2")
+    if modes == MOST_MODES and record.time_s.size <= PER_MODE * MOST_MODES + 4:
+        raise PlantError(f"{record.time_s.size} samples are too few for two modes")
+    time_s = record.time_s - record.time_s[0]
+    single, other = as_pendulum(single_mode(time_s, record.value), record, pendulum)
+    double = None if modes == 1 else second_mode(single, record.value, certain=modes == MOST_MODES)
+    if double is None or are_told_apart(double):
+        found = _identified(record, single if double is None else double)
+    elif modes is None and turns_apart(double) < _SAME_FREQUENCY_TURNS:
+        found = _identified(record, single, mixture=_modes(record, double))
+    else:
+        raise PlantError(_not_told_apart(double, record))
+    return found if other is None else _undecided(found, single, other)
+
+
+def _not_told_apart(double: Fit, record: SwingRecord) -> str:
+    low, high = sorted(float(double.mode(index)[FREQUENCY]) / (2.0 * np.pi) for index in range(2))
+    return (
+        f"the record shows more than one mode, near {low:.5g} and {high:.5g} Hz, and does not tell"
+        f" them apart in {record.duration_s:.4g} s: record for longer, or fit one mode"
+    )
+
+
+def _identified(
+    record: SwingRecord, found: Fit, *, mixture: tuple[IdentifiedMode, ...] = ()
+) -> IdentifiedSwing:
+    """Give what a fit says; a mixture of modes that fits better, at one frequency, widens the uncertainty."""
+    noise = noise_near(found, 0)
+    modes = _modes(record, found)
+    if mixture:
+        modes = (_widened(modes[0], mixture),)
+    swinging = [mode for mode in modes if _swings(mode, record)]
+    if not swinging:
+        raise PlantError(
+            f"the record holds {modes[0].frequency_hz * record.duration_s:.2g} swings in"
+            f" {record.duration_s:.4g} s: at least one is needed, and three or more to be exact"
+        )
+    by_amplitude = sorted(swinging, key=lambda mode: -(mode.amplitude or 0.0))
+    return IdentifiedSwing(record, found, tuple(by_amplitude), noise, not mixture)
+
+
+def _undecided(found: IdentifiedSwing, taken: Fit, other: Fit) -> IdentifiedSwing:
+    """Widen the uncertainty of the first mode until it covers what another model says as well."""
+    first, second = (_modes(found.record, each)[0] for each in (taken, other))
+    mode = found.modes[0]
+    ratio = (first.damping_ratio or 0.0) - (second.damping_ratio or 0.0)
+    mode = _with_spread(mode, _OTHER_MODEL * (first.frequency_hz - second.frequency_hz), _OTHER_MODEL * ratio)
+    return replace(found, modes=(mode, *found.modes[1:]), is_decided=False)
+
+
+def _swings(mode: IdentifiedMode, record: SwingRecord) -> bool:
+    """Whether a mode is a swing: what is slower than the record or dies at once is drift."""
+    return mode.frequency_hz * record.duration_s >= 1.0 and (mode.damping_ratio or 0.0) <= LARGEST_DAMPING
+
+
+def _widened(mode: IdentifiedMode, mixture: tuple[IdentifiedMode, ...]) -> IdentifiedMode:
+    """Add the spread of a mixture, by amplitude, to the uncertainty of the one mode in its place."""
+    weights = np.array([each.amplitude or 0.0 for each in mixture])
+    share = float(np.sqrt(np.prod(weights / weights.sum())))
+    frequencies, ratios = zip(
+        *((each.frequency_hz, each.damping_ratio or 0.0) for each in mixture), strict=True
+    )
+    return _with_spread(mode, share * float(np.ptp(frequencies)), share * float(np.ptp(ratios)))
+
+
+def _with_spread(mode: IdentifiedMode, frequency_hz: float, damping_ratio: float) -> IdentifiedMode:
+    """Add to the standard deviations of a mode, as independent errors add up."""
+    return replace(
+        mode,
+        frequency_hz_std=float(np.hypot(mode.frequency_hz_std, frequency_hz)),
+        damping_ratio_std=float(np.hypot(mode.damping_ratio_std or 0.0, damping_ratio)),
+    )
+
+
+def _modes(record: SwingRecord, found: Fit) -> tuple[IdentifiedMode, ...]:
+    """Turn a fit into modes with their uncertainty; damping below 0 is held at 0."""
+    covariance, indices = found.covariance(), range(found.model.modes)
+    noises = [noise_near(found, index) for index in indices]
+    decays = [PER_MODE * index + DECAY for index in indices]
+    growing = tuple(index for index in decays if found.parameters[index] < 0.0)
+    if growing:
+        bounded = found.parameters.copy()
+        bounded[list(growing)] = 0.0
+        found = fit(found.model, record.value, bounded, held=growing)
+    return tuple(_mode(found, index, noises[index].scale ** 2 * covariance) for index in indices)
+
+
+def _mode(found: Fit, index: int, covariance: FloatArray) -> IdentifiedMode:
+    """Turn a damped frequency and a decay, in rad/s, into the undamped frequency and the damping ratio."""
+    damped, decay = (float(found.mode(index)[which]) for which in (FREQUENCY, DECAY))
+    undamped = float(np.hypot(damped, decay))
+    cosine, sine = damped / undamped, decay / undamped
+    turn = np.array([[cosine, sine], [-cosine * sine / undamped, cosine**2 / undamped]])
+    columns = [PER_MODE * index + which for which in (FREQUENCY, DECAY)]
+    numerical = (_NUMERICAL / found.model.time_s[-1]) ** 2 * np.eye(2)
+    spread = turn @ (covariance[np.ix_(columns, columns)] + numerical) @ turn.T
+    cut_frequency, cut_ratio = cut_off(found, decay / undamped) if index == 0 else (0.0, 0.0)
+    return IdentifiedMode(
+        frequency_hz=undamped / (2.0 * np.pi),
+        damping_ratio=max(0.0, decay / undamped),
+        frequency_hz_std=float(np.hypot(np.sqrt(spread[0, 0]), undamped * cut_frequency)) / (2.0 * np.pi),
+        damping_ratio_std=float(np.hypot(np.sqrt(spread[1, 1]), cut_ratio)),
+        amplitude=found.amplitude(index),
+    )
+
+
+def fitted_values(found: IdentifiedSwing, time_s: FloatArray) -> FloatArray:
+    """Give the fitted swing at other times within the record, in its unit.
+
+    Parameters
+    ----------
+    found : IdentifiedSwing
+    time_s : ndarray
+        Rising; on the clock of the record, first and last sample included.
+    """
+    model = replace(found.fit.model, time_s=time_s - found.record.time_s[0])
+    return model.evaluate(found.fit.parameters)[0]

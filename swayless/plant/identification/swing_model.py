@@ -1,0 +1,151 @@
+"""The model of a free swing: decaying modes, offset and drift, with its exact Jacobian.
+
+Parameters stand in one array: for each mode its (damped) angular frequency, its decay, and the cosine and
+sine amplitudes at time 0; then the coefficients of the drift, a polynomial.
+
+Not for: finding the parameters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swayless.plant.identification.record import FloatArray
+from swayless.plant.identification.waveform import Waveform, lag_s
+
+PER_MODE = 4
+FREQUENCY, DECAY, COSINE, SINE = range(PER_MODE)
+
+
+@dataclass(frozen=True, eq=False)
+class SwingModel:
+    """Modes, offset and drift at the times of a record.
+
+    Parameters
+    ----------
+    time_s : ndarray, shape (n,)
+        From 0 on.
+    modes : int
+        How many.
+    drift_degree : int
+        Degree of the polynomial; 1 for an offset and a straight drift.
+    waveform : Waveform or None
+        What large swings do to the first mode; None for a linear one.
+    """
+
+    time_s: FloatArray
+    modes: int = 1
+    drift_degree: int = 1
+    waveform: Waveform | None = None
+
+    @property
+    def parameter_count(self) -> int:
+        """How many parameters there are."""
+        return PER_MODE * self.modes + self.drift_degree + 1
+
+    @cached_property
+    def highest_rad_s(self) -> float:
+        """Frequency of two samples a swing, above which waves look like slower ones."""
+        return float(np.pi / np.median(np.diff(self.time_s)))
+
+    @cached_property
+    def drift(self) -> FloatArray:
+        """Legendre polynomials over the record, shape (n, drift_degree + 1)."""
+        return np.polynomial.legendre.legvander(2.0 * self.time_s / self.time_s[-1] - 1.0, self.drift_degree)
+
+    def evaluate(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give the model's values, shape (n,), and their derivatives, shape (n, parameter_count)."""
+        jacobian = np.empty((self.time_s.size, self.parameter_count), order="F")
+        jacobian[:, PER_MODE * self.modes :] = self.drift
+        for mode in range(self.modes):
+            columns = slice(PER_MODE * mode, PER_MODE * (mode + 1))
+            if mode > 0 or self.waveform is None:
+                wave = _wave(self.time_s, parameters[columns])
+                jacobian[:, columns][:, COSINE], jacobian[:, columns][:, SINE] = wave.real, wave.imag
+        return self._weigh(parameters, jacobian), jacobian
+
+    def settle(self, parameters: FloatArray, value: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Solve for the linear parameters, amplitudes and drift: variable projection.
+
+        Of a bent wave the lag and the bend are those of the amplitudes given.
+
+        Returns
+        -------
+        parameters, residual, jacobian : ndarray
+            There: all parameters, record less model, and the derivatives of the model.
+        """
+        predicted, jacobian = self.evaluate(parameters)
+        linear = np.ones(self.parameter_count, dtype=bool)
+        for nonlinear in (FREQUENCY, DECAY):
+            linear[nonlinear : PER_MODE * self.modes : PER_MODE] = False
+        columns = jacobian[:, linear]
+        settled = parameters.copy()
+        settled[linear] += solve(columns.T @ columns, columns.T @ (value - predicted))
+        return settled, value - self._weigh(settled, jacobian), jacobian
+
+    def _weigh(self, parameters: FloatArray, jacobian: FloatArray) -> FloatArray:
+        """Give the values for amplitudes, and fill in the derivatives that depend on them."""
+        first = PER_MODE * self.modes
+        value = self.drift @ parameters[first:]
+        for mode in range(self.modes):
+            columns = slice(PER_MODE * mode, PER_MODE * (mode + 1))
+            bent = mode == 0 and self.waveform is not None
+            weigh = self._weigh_bent if bent else self._weigh_linear
+            value += weigh(parameters[columns], jacobian[:, columns])
+        return value
+
+    def _weigh_linear(self, mode: FloatArray, jacobian: FloatArray) -> FloatArray:
+        """Weigh the cosine and sine waves that stand in the Jacobian."""
+        cosine, sine = jacobian[:, COSINE], jacobian[:, SINE]
+        value = mode[COSINE] * cosine + mode[SINE] * sine
+        jacobian[:, FREQUENCY] = self.time_s * (mode[SINE] * cosine - mode[COSINE] * sine)
+        jacobian[:, DECAY] = -self.time_s * value
+        return np.asarray(value)
+
+    def _weigh_bent(self, mode: FloatArray, jacobian: FloatArray) -> FloatArray:
+        """Give the values of a load that swings far, and fill in their derivatives (see `waveform`)."""
+        waveform, time_s = self.waveform, self.time_s
+        assert waveform is not None  # noqa: S101 - for the type checker
+        amplitude, frequency = complex(mode[COSINE], -mode[SINE]), float(mode[FREQUENCY])
+        scale = waveform.angle_per_value(frequency)
+        of_scale = waveform.angle_exponent / frequency
+        lag, lag_by_decay, lag_by_log = lag_s(time_s, float(mode[DECAY]), scale * abs(amplitude))
+        wave = amplitude * _wave(time_s, mode, lag)
+        slip = -1j * frequency * lag_by_log
+        # Derivatives of the logarithm of the wave; an amplitude acts on its size, its phase, and the lag.
+        logarithms = {
+            FREQUENCY: 1j * (time_s - lag) + slip * of_scale,
+            DECAY: -time_s - 1j * frequency * lag_by_decay,
+            COSINE: 1.0 / amplitude + slip * (1.0 / amplitude).real,
+            SINE: -1j / amplitude + slip * (-1j / amplitude).real,
+        }
+        value, square = np.zeros(time_s.size), (scale * np.abs(wave)) ** 2
+        jacobian[:] = 0.0
+        for (harmonic, order), coefficient in waveform.coefficients.items():
+            term = coefficient * scale ** (harmonic - 1) * wave**harmonic * square**order
+            value += term.real
+            for column, change in logarithms.items():
+                of_wave = harmonic * change + 2.0 * order * change.real
+                of_angle = (harmonic - 1 + 2 * order) * of_scale if column == FREQUENCY else 0.0
+                jacobian[:, column] += (term * (of_wave + of_angle)).real
+        return value
+
+
+def _wave(time_s: FloatArray, mode: FloatArray, lag: FloatArray | float = 0.0) -> NDArray[np.complex128]:
+    """Give exp(-decay t) exp(j frequency (t - lag))."""
+    phase = mode[FREQUENCY] * (time_s - lag)
+    wave = np.empty(time_s.size, dtype=np.complex128)
+    wave.real, wave.imag = np.cos(phase), np.sin(phase)
+    return np.asarray(wave * np.exp(-mode[DECAY] * time_s))
+
+
+def solve(normal: FloatArray, right: FloatArray, damping: float = 0.0) -> FloatArray:
+    """Solve normal equations, scaled to a diagonal of ones; directions that the data do not show stay put."""
+    size = np.sqrt(np.diag(normal))
+    size[size == 0.0] = 1.0
+    scaled = normal / np.outer(size, size) + damping * np.eye(size.size)
+    return np.asarray(np.linalg.lstsq(scaled, right / size, rcond=1e-14)[0] / size)
