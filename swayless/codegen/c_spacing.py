@@ -9,6 +9,9 @@ from swayless.controller.original_filter import MOST_RUNS
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.spacing_filter import spacing_of
 
+STARTS_A_LINE = 4
+"""Positions in one line of source: they have all the digits of their type."""
+
 
 def spacing_look_ups(settings: ShaperSettings) -> int:
     """Bound the looks into the table of the spacing in a tick: each halves what is left of it.
@@ -35,7 +38,7 @@ def spacing_constants(settings: ShaperSettings) -> list[CConstant]:
         CConstant("uint32_t", "MOST_SPACING", f"{spacing.most}u", "ticks: widest spacing"),
     ]
     if spacing_law(settings) == "original":
-        doc = "runs are numbered up to here; by then the ring has forgotten the first"
+        doc = "by then the ring has forgotten the first runs"
         constants.append(CConstant("uint32_t", "MOST_RUNS", f"{MOST_RUNS}u", doc))
     return constants
 
@@ -53,8 +56,9 @@ def spacing_tables(settings: ShaperSettings, types: CTypes) -> list[CTable]:
     spacing, measured = spacing_of(settings), ROPE if settings.rope is None else settings.rope.measured
     unit = measured.value_unit(is_integer=types.number.is_integer)
     starts = [types.literal(start) for start in spacing.starts]
+    lines = [starts[i : i + STARTS_A_LINE] for i in range(0, len(starts), STARTS_A_LINE)]
     return [
-        c_table(types.real, "PIECE_START", [starts], f"{unit} of {measured.title}: where each piece begins"),
+        c_table(types.real, "PIECE_START", lines, f"{unit} of {measured.title}: where each piece begins"),
         c_table("uint16_t", "PIECE_TICKS", [[f"{n}u" for n in spacing.ticks]], "spacing of each piece"),
     ]
 

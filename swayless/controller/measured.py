@@ -99,7 +99,7 @@ class Measured:
         Examples
         --------
         >>> ARM_POSITION.said("positive when the load sinks; at rest every length is taken")
-        'positive when the position grows; at rest every position is taken'
+        'positive when it grows; at rest every position is taken'
         """
         for old, new in zip(ROPE.words, self.words, strict=True):
             text = text.replace(old, new)
@@ -138,7 +138,7 @@ def _arm(unit: str) -> Measured:
         noun="position",
         speed_title="position speed",
         mover="axis",
-        growth="the position grows",
+        growth="it grows",
         is_length=False,
     )
 
