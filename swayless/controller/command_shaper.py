@@ -62,6 +62,8 @@ class CommandShaper:
         self._travel = Travel(settings) if operator.way else None
         self._steps = StepMode(settings) if operator.steps else None
         self._step_motion = StepMotion(settings, self._travel) if operator.steps else None
+        found = (self._tuning, self._switches, self._travel, self._steps)
+        self._functions = tuple(part for part in found if part is not None)
         self._selected_row = self._wanted_row = 0
         self._rope_row = 1
         self._row_is_locked = False
@@ -206,9 +208,8 @@ class CommandShaper:
     def _full_status(self) -> int:
         motion = self._motion
         status = self._status | self._reader.status | self._stops.status | self._diagnosis.status
-        for part in (self._tuning, self._switches, self._travel, self._steps):
-            if part is not None:
-                status |= part.status
+        for part in self._functions:
+            status |= part.status
         if motion.row == 0:
             status |= _UNSHAPED
         if not motion.is_inching and motion.row != self._wanted_row:

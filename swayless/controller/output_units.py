@@ -84,8 +84,9 @@ class OutputUnits:
 
 
 def _largest_sum(settings: ShaperSettings) -> int:
-    """Bound the sum of references of any stop: two ramps, two settlings and a hold at the maximum."""
-    limits = settings.limits
+    """Bound the sum of references of any stop: two ramps, two settlings, a hold at the maximum, and steps."""
+    limits, steps = settings.limits, settings.operator.steps
     slowest = min(limits.acceleration_step, limits.deceleration_step, limits.quick_stop_step)
     ramp_ticks = -(-int(limits.max_command) // int(slowest))
-    return int(limits.max_command) * (2 * ramp_ticks + 4 * settings.longest_delay_ticks + 4)
+    stop = int(limits.max_command) * (2 * ramp_ticks + 4 * settings.longest_delay_ticks + 4)
+    return stop if steps is None else stop + int(steps.capacity)

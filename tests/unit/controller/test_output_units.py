@@ -9,6 +9,7 @@ from swayless.controller import CommandShaper
 from swayless.controller.output_units import OutputUnits, residual_bounds
 from swayless.errors import ControllerError
 from tests.unit.controller.blocks import TICK_S, ZVD, block, press, run
+from tests.unit.controller.operator_blocks import operated
 
 
 @pytest.mark.parametrize("counts_per_m_s", [700.0, 20_000.0, 333_333.3, 4e7])
@@ -52,3 +53,12 @@ def test_the_longest_sum_of_a_stop_fits_64_bits():
 )
 def test_residual_bounds_are_the_tolerances_and_1_for_row_0(number, bound):
     assert residual_bounds(block(ZVD, number=number)) == ((10**6 if number == "int32" else 1.0), bound)
+
+
+def test_the_steps_that_may_be_pressed_are_part_of_the_longest_sum():
+    settings = operated(block(ZVD, number="int32"), step_sizes_m=(1.0, 10.0, 100.0))
+    units, capacity = OutputUnits(settings), settings.operator.steps.capacity
+    assert units.distance(capacity) == 16 * 100_000
+    assert units.distance_scale * capacity < 1 << 62
+    with pytest.raises(ControllerError, match=r"exceeds 2\^31 mm"):
+        OutputUnits(operated(block(ZVD, number="int32"), step_sizes_m=(1.0, 10.0, 200_000.0)))
