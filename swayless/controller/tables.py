@@ -6,14 +6,12 @@ same numbers.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import accumulate, chain
 from typing import Any
 
 from swayless.controller.checksum import Checksum, Table, checksum, real_table, whole_table
 from swayless.controller.diagnostics import DesignFacts
-from swayless.controller.hoist import stretches
-from swayless.controller.hoist_int32 import IntegerHoist
 from swayless.controller.output_units import residual_bounds
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.spaced_taps import SpacedTaps
@@ -96,7 +94,7 @@ def _moments(settings: ShaperSettings) -> Iterator[Table]:
 
 
 def _of_ropes(settings: ShaperSettings) -> Iterator[Table]:
-    """Give what depends on the rope: limits of rows, spacings, quanta and stretches."""
+    """Give what depends on the rope: limits of rows, spacings, quanta."""
     ropes, taps = settings.bank.by_rope, settings.bank.rows[0].taps
     if ropes is not None:
         yield _table("row lower ends", ropes.lower, settings)
@@ -106,14 +104,6 @@ def _of_ropes(settings: ShaperSettings) -> Iterator[Table]:
         yield whole_table("spacing ticks", taps.spacing.ticks)
     if settings.clock is not None:
         yield whole_table("tick quanta", settings.clock.nodes)
-        yield _table("stretches", chain.from_iterable(_stretches(settings)), settings)
-
-
-def _stretches(settings: ShaperSettings) -> Iterable[Iterable[Any]]:
-    """Give what hoisting does to each tap of each row, in the number type."""
-    if settings.number.is_integer:
-        return IntegerHoist(settings, cells=1, max_scaled=1).stretch
-    return [[settings.number.scalar(each) for each in row] for row in stretches(settings)]
 
 
 def _of_diagnostics(settings: ShaperSettings) -> Iterator[Table]:
