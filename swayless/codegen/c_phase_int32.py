@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from swayless.codegen.c_phase_float import ANSWER_DOC, LEAN_DOC
 from swayless.codegen.c_types import CConstant, CTable, CTypes, c_table
-from swayless.controller.hoist_int32 import ONE, IntegerHoist
+from swayless.controller.hoist_answers import leaning_from
+from swayless.controller.hoist_int32 import LARGEST_SWING, LARGEST_WANTED, ONE, IntegerHoist
 from swayless.controller.phase_clock import FRACTION_BITS
 from swayless.controller.phase_filter_int32 import command_shift
 from swayless.controller.settings import ShaperSettings
-
-LARGEST_SWING = 1 << 31
-"""Bound of the oscillator: a full reversal of the largest command, scaled."""
 
 
 def integer_hoist(settings: ShaperSettings) -> IntegerHoist:
@@ -20,7 +19,7 @@ def integer_hoist(settings: ShaperSettings) -> IntegerHoist:
     settings : ShaperSettings
         The block in int32, with a phase clock.
     """
-    return IntegerHoist(settings, 0, int(settings.limits.max_command) << command_shift(settings))
+    return IntegerHoist(settings, int(settings.limits.max_command) << command_shift(settings))
 
 
 def integer_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant]:
@@ -33,12 +32,23 @@ def integer_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant
     types : CTypes
         Its types.
     """
-    del types  # commands have no part in them
     assert settings.clock is not None  # noqa: S101 - only a phase clock has these constants
     hoist, spans = integer_hoist(settings), settings.clock.cells_per_unit
     return [
         CConstant("uint64_t", "SPANS_PER_MM", f"UINT64_C({spans})", "spans of the table per mm, over 2^32"),
-        *(CConstant("uint32_t", name, f"{value}u", doc) for name, value, doc in _counters()),
+        *(CConstant("uint32_t", name, f"{value}u", doc) for name, value, doc in _counters(hoist)),
+        CConstant(
+            "uint64_t",
+            "INVERSE_SCALE",
+            f"UINT64_C({1 << hoist.inverse_shift})",
+            "over quanta: their reciprocal",
+        ),
+        CConstant(
+            types.real,
+            "LEANING_FROM",
+            types.literal(leaning_from(settings)),
+            "from here on answers lean away from the maximum",
+        ),
         *(
             CConstant("int64_t", name, f"INT64_C({value})", doc)
             for name, value, doc in (*_scales(settings), *_ratios(hoist))
@@ -46,11 +56,13 @@ def integer_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant
     ]
 
 
-def _counters() -> list[tuple[str, int, str]]:
+def _counters(hoist: IntegerHoist) -> list[tuple[str, int, str]]:
     return [
         ("SPAN_SHIFT", 32 - FRACTION_BITS, "from there to places in the table"),
         ("SHARE_BITS", FRACTION_BITS, "bits of a place within a span"),
         ("SHARE_HALF", 1 << (FRACTION_BITS - 1), "rounds to the nearest quantum"),
+        ("RATIO_SHIFT", hoist.inverse_shift - 30, "from quanta times a reciprocal to 2^30"),
+        ("TICKS_SHIFT", hoist.inverse_shift - 31, "from there over 2^31 to ticks"),
     ]
 
 
@@ -64,21 +76,20 @@ def _scales(settings: ShaperSettings) -> list[tuple[str, int, str]]:
 
 def _ratios(hoist: IntegerHoist) -> list[tuple[str, int, str]]:
     return [
-        ("KICK", hoist.kick.factor, "quantum / (9806.65 mm/s2 tick), scaled"),
-        ("KICK_SCALE", 1 << hoist.kick.shift, "KICK is so much too large"),
+        ("KICK", hoist.kick_scale.factor, "quantum / (9806.65 mm/s2 tick), scaled"),
+        ("KICK_SCALE", 1 << hoist.kick_scale.shift, "KICK is so much too large"),
         ("STRETCH_SCALE", 1 << hoist.stretch_shift, "STRETCH is so much too large"),
         ("PER_SCALE", 1 << 22, "from 2^52 to 2^30"),
         ("PER_MOST", hoist.per_most, "2^52 / quanta of a tick on the shortest rope"),
         ("PER_FEWEST", hoist.per_fewest, "2^52 / quanta of a tick on the longest rope"),
-        ("LOSS_RATIO", hoist.loss, "damping ratio of the swing, over 2^30"),
-        ("SIXTH", hoist.sixth, "sin x = x (1 - x^2 / 6), over 2^30"),
-        ("TWELFTH", hoist.twelfth, "cos x = 1 - x^2 / 2 (1 - x^2 / 12), over 2^30"),
+        ("LOSS", hoist.loss, "twice the damping ratio of the swing, over 2^30"),
         ("LONGEST_STRETCH", hoist.longest, "most change of sqrt(rope length), over 2^30"),
         ("LARGEST_SWING", LARGEST_SWING, "keeps products of the swing within 64 bits"),
+        ("LARGEST_WANTED", LARGEST_WANTED, "keeps answers within 64 bits"),
         ("LARGEST_EXCESS", ONE >> 1, "largest relative correction of a part, over 2^30"),
         ("LEAST_MISMATCH", hoist.mismatch, "least relative error corrected, over 2^30"),
         ("LEAST_ANSWER", hoist.least_answer, "scaled: smaller kicks are collected"),
-        ("LEAST_OWED", hoist.least_owed, "scaled: smaller corrections are left out"),
+        ("LEAST_LACK", hoist.least_lack, "scaled: smaller corrections are left out"),
     ]
 
 
@@ -95,9 +106,13 @@ def integer_tables(settings: ShaperSettings, types: CTypes) -> list[CTable]:
     del types  # commands have no part in them
     hoist = integer_hoist(settings)
     stretches = [[str(value) for value in row] for row in hoist.stretch]
+    steps = [[str(even) for even, _ in row] for row in hoist.answers]
+    leans = [[str(lean) for _, lean in row] for row in hoist.answers]
     series = [f"INT64_C({value})" for value in hoist.series]
     doc = "relative change of sqrt(rope length) until each tap, by row, per mm/s and quantum, scaled"
     return [
         c_table("int32_t", "STRETCH", stretches, doc),
         c_table("int64_t", "SERIES", [series], "(1 + z)^(-1/2) = 1 + z (s0 + z (s1 + ...)), over 2^30"),
+        c_table("int32_t", "ANSWER", steps, f"{ANSWER_DOC}, over 2^30"),
+        c_table("int32_t", "LEAN", leans, f"{LEAN_DOC}, over 2^30"),
     ]

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from swayless.codegen.c_types import CField, CTypes
+from swayless.controller.hoist_int32 import inverse_shift
+from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.phase_filter import last_cell
 from swayless.controller.settings import ShaperSettings
+
+_FORESEEN = "1 / quanta of the tick that is to release each part"
 
 
 def ring_length(settings: ShaperSettings) -> int:
@@ -47,15 +51,38 @@ def phase_members(settings: ShaperSettings, types: CTypes) -> list[CField]:
             ("fresh_mass", "mass of the cells of this lap alone"),
         ]
     members = [CField(wide, name, doc, "", zero) for name, doc in sums]
-    if not types.number.is_integer:
-        inverse = types.literal(types.number.scalar(1) / types.number.scalar(settings.clock.fewest_quanta))
-        members.append(CField(wide, "inverse", "1 / quanta of this tick", "", inverse))
+    members.append(_inverse(settings.clock, types))
     members.append(CField(types.real, "answered", "hoist speed answered last", "", zero))
     return [
         *members,
         CField("uint32_t", "quanta", "quanta of phase in this tick", "", quanta),
+        *_weights(settings, types),
         CField("uint32_t", "elapsed_quanta", "quanta of the tick before", "", quanta),
     ]
+
+
+def _weights(settings: ShaperSettings, types: CTypes) -> list[CField]:
+    """List what shares a change out, and what is foreseen of its parts, found once for a rate."""
+    later, size = _later_taps(settings), f"[{types.name.upper()}_SHAPER_LATER_TAPS]"
+    return [
+        CField(types.sum, "weight", "weight of each later tap for a change now", size, elements=later),
+        CField(_inverse_type(types), "foreseen", "the same of a change now", size, elements=later),
+        CField("bool", "weighed", "both are for the rate and row of this tick", "", "false"),
+    ]
+
+
+def _inverse_type(types: CTypes) -> str:
+    return "uint32_t" if types.number.is_integer else types.real
+
+
+def _inverse(clock: PhaseClock, types: CTypes) -> CField:
+    """List the reciprocal of the quanta of a tick: after power-on of the longest rope."""
+    if not types.number.is_integer:
+        inverse = types.literal(types.number.scalar(1) / types.number.scalar(clock.fewest_quanta))
+        return CField(types.sum, "inverse", "1 / quanta of this tick", "", inverse)
+    shift = inverse_shift(clock)
+    whole = (1 << shift) // clock.fewest_quanta
+    return CField("uint32_t", "inverse", "INVERSE_SCALE / quanta of this tick", "", f"{whole}u")
 
 
 def phase_cells(settings: ShaperSettings, types: CTypes) -> list[CField]:
@@ -69,17 +96,12 @@ def phase_cells(settings: ShaperSettings, types: CTypes) -> list[CField]:
         Its types.
     """
     later, size = _later_taps(settings), f"[{types.name.upper()}_SHAPER_LATER_TAPS]"
-    over = " over 2^30" if types.number.is_integer else ""
     parts = "part of each later tap" + (", scaled" if types.number.is_integer else "")
-    stretch = f"change of sqrt(rope length) it is made for{over}"
-    fields = [
+    return [
         CField(types.sum, "part", parts, size, elements=later),
-        CField(types.real, "stretch", stretch, size, elements=later),
+        CField(_inverse_type(types), "foreseen", _FORESEEN, size, elements=later),
         CField("uint32_t", "gap", "quanta until the next cell"),
     ]
-    if not types.number.is_integer:
-        fields.insert(2, CField(types.real, "inverse", "1 / gap"))
-    return fields
 
 
 def phase_ring(settings: ShaperSettings, types: CTypes) -> list[CField]:

@@ -14,8 +14,8 @@ PHASE_LAW = (
     "has swung on by the phase designed, however the rope was hoisted meanwhile. Give the rope length and",
     "its rate of change, positive when the load sinks, on every tick. A hoist that starts or stops under a",
     "swinging load kicks it: the reference answers with a step, and may pass the present command by that,",
-    "but never the maximum. The stop distance is exact on a rope that is held still; a hoist that has just",
-    "changed its speed makes it approximate until what it owes is released.",
+    "but never the maximum. The stop distance is exact on a rope that is held still from now on; the stop",
+    "time does not know the answers to come, which end by one run more and go as far back as forth.",
 )
 
 SPACING_LAWS: dict[SpacingLaw, tuple[str, ...]] = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, st_table
 from swayless.controller import hoist
+from swayless.controller.hoist_answers import answers, leaning_from
 from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.phase_filter import last_cell
 from swayless.controller.settings import ShaperSettings
@@ -49,6 +50,8 @@ def phase_tables(settings: ShaperSettings, types: StTypes) -> list[Table]:
     if clock is None:
         return []
     by_row = [[types.literal(s) for s in row] for row in hoist.stretches(settings)]
+    steps = [[types.literal(s) for s in each.even] for each in answers(settings)]
+    leans = [[types.literal(s) for s in each.lean] for each in answers(settings)]
     nodes = [[types.literal(node) for node in clock.nodes]]
     lengths = f"{float(clock.shortest):.6g} m on, {1.0 / float(clock.cells_per_unit):.6g} m apart"
     return [
@@ -58,6 +61,8 @@ def phase_tables(settings: ShaperSettings, types: StTypes) -> list[Table]:
             by_row,
             "[s per m and quantum] Change of sqrt(L) until each tap, relative, per hoist speed; by row.",
         ),
+        st_table("Answers", types.real, steps, "Steps of the taps that answer a wanted step of 1; by row."),
+        st_table("Leans", types.real, leans, "Steps that let an answer go only up or only down; by row."),
         st_table("PhaseTable", types.real, nodes, f"[quanta] Phase of a tick on ropes from {lengths}."),
     ]
 
@@ -97,9 +102,7 @@ def _hoist_constants(settings: ShaperSettings) -> list[RealConstant]:
     first, second, third, fourth = hoist.SERIES
     return [
         ("KickPerQuantum", kick, "[s/m] kick of a change of hoist speed, 1 / (w L)"),
-        ("Loss", hoist.loss_ratio(settings), "damping ratio of the swing beside the reference"),
-        ("Sixth", 1.0 / 6.0, "1 / 6, of the sine of a small angle"),
-        ("Twelfth", 1.0 / 12.0, "1 / 12, of its cosine"),
+        ("Loss", 2.0 * hoist.loss_ratio(settings), "twice the damping ratio of that swing"),
         ("LongestStretch", hoist.LONGEST_STRETCH, "relative change of sqrt(L) that is weighted for at most"),
         ("FirstOrder", first, "of z in (1 + z)^(-1/2)"),
         ("SecondOrder", second, "of its square"),
@@ -107,5 +110,6 @@ def _hoist_constants(settings: ShaperSettings) -> list[RealConstant]:
         ("FourthOrder", fourth, "of its fourth power"),
         ("LeastMismatch", hoist.LEAST_MISMATCH, "relative error of a weight from which on it is corrected"),
         ("LeastAnswer", full * scalar(hoist.LEAST_ANSWER), f"[{units}] smaller kicks are collected"),
-        ("LeastOwed", full * scalar(hoist.LEAST_OWED), f"[{units}] smaller corrections are left"),
+        ("LeastLack", full * scalar(hoist.LEAST_LACK), f"[{units}] smaller corrections are left"),
+        ("LeaningFrom", leaning_from(settings), f"[{units}] from here on answers lean away from the maximum"),
     ]

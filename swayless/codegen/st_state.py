@@ -85,13 +85,11 @@ def _phase_arrays(settings: ShaperSettings, types: StTypes) -> list[Variable]:
     """List the ring of the phase clock, and the pointers of its taps."""
     last = last_cell(settings)
     most_taps = max(len(table.lags) for table in settings.row_tables)
-    ring = types.array_of("real", last)
     parts = types.array_of("real", (most_taps - 1) * (last + 1) - 1)
     return [
         Variable("Parts", parts, "ring for each later tap: what it releases of each change"),
         Variable("Gaps", types.array_of("word", last), "[quanta] ring: phase until the next change"),
-        Variable("Inverses", ring, "ring: 1 / quanta of the tick"),
-        Variable("Rates", ring, "ring: hoist speed times quanta of the tick"),
+        Variable("Foreseen", parts, "ring for each later tap: 1 / quanta of the tick that is to release it"),
         Variable("TapCells", types.array_of("word", most_taps - 1), "cell that each tap reaches next"),
         Variable("TapAhead", types.array_of("word", most_taps - 1), "[quanta] phase until then"),
     ]

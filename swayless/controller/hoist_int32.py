@@ -1,7 +1,8 @@
-"""The answer to hoisting in int32: the law of `hoist` in whole numbers. Not for: why; that is there.
+"""What hoisting does, in int32: the law of `hoist` in whole numbers. Not for: why; that is there.
 
 Speeds are in mm/s; ratios are in Q30; commands are scaled counts (`phase_filter_int32`). Every shift and
-division cuts towards 0, so that both directions of travel are alike.
+division cuts towards 0, so that both directions of travel are alike. What is divided by the quanta of a tick
+is multiplied by their reciprocal, which is found once, when they change.
 """
 
 from __future__ import annotations
@@ -11,21 +12,27 @@ from typing import NamedTuple
 
 from swayless.controller.hoist import (
     LEAST_ANSWER,
+    LEAST_LACK,
     LEAST_MISMATCH,
-    LEAST_OWED,
     LONGEST_STRETCH,
     SERIES,
     kick_per_quantum,
     loss_ratio,
     stretches,
 )
+from swayless.controller.hoist_answers import answers
+from swayless.controller.phase_clock import PhaseClock
 from swayless.controller.rope import MM_PER_M
 from swayless.controller.settings import ShaperSettings
 
 ONE = 1 << 30
 """1 in Q30."""
 
-_LARGEST_SWING = 1 << 31
+LARGEST_SWING = 1 << 31
+"""Keeps products of the oscillator in 64 bits: twice the largest command, a full reversal."""
+
+LARGEST_WANTED = 1 << 29
+"""Keeps answers in 64 bits: half of the largest command, more than any hoist wants."""
 
 
 def shifted(value: int, bits: int) -> int:
@@ -33,14 +40,14 @@ def shifted(value: int, bits: int) -> int:
     return value >> bits if value >= 0 else -(-value >> bits)
 
 
-def quotient(value: int, divisor: int) -> int:
-    """Divide by a positive number, towards 0."""
-    return value // divisor if value >= 0 else -(-value // divisor)
+def within(value: int, limit: int) -> int:
+    """Value, but no farther from 0 than the limit."""
+    return min(max(value, -limit), limit)
 
 
-def _within(swing: int) -> int:
-    """Keep the oscillator where products fit in 64 bits: twice the largest command, a full reversal."""
-    return min(max(swing, -_LARGEST_SWING), _LARGEST_SWING)
+def inverse_shift(clock: PhaseClock) -> int:
+    """Power of two over which reciprocals of quanta fill 32 bits, with half as much again to spare."""
+    return 30 + clock.fewest_quanta.bit_length()
 
 
 class Scale(NamedTuple):
@@ -59,14 +66,12 @@ class Scale(NamedTuple):
 
 
 class IntegerHoist:
-    """The answer to hoisting in int32.
+    """Weights and wanted steps in int32.
 
     Parameters
     ----------
     settings : ShaperSettings
         Constants of the block.
-    cells : int
-        Cells of the ring.
     max_scaled : int
         Largest command, scaled.
     """
@@ -74,7 +79,7 @@ class IntegerHoist:
     STRETCH_BITS = 22
     KICK_BITS = 22
 
-    def __init__(self, settings: ShaperSettings, cells: int, max_scaled: int) -> None:
+    def __init__(self, settings: ShaperSettings, max_scaled: int) -> None:
         clock = settings.clock
         assert clock is not None  # noqa: S101 - only a phase law has a hoist
         self._tables = settings.row_tables
@@ -84,86 +89,94 @@ class IntegerHoist:
             tuple(round(s / MM_PER_M * ONE * 2.0**self.stretch_shift) for s in row)
             for row in stretches(settings)
         )
-        self.kick = Scale.of(kick_per_quantum(settings) / MM_PER_M, bits=self.KICK_BITS)
+        self.answers = tuple(
+            tuple((round(e * ONE), round(n * ONE)) for e, n in zip(*each, strict=True))
+            for each in answers(settings)
+        )
+        self.kick_scale = Scale.of(kick_per_quantum(settings) / MM_PER_M, bits=self.KICK_BITS)
         self.per_most = round(2.0**52 / clock.most_quanta)
         self.per_fewest = round(2.0**52 / clock.fewest_quanta)
+        self.inverse_shift = inverse_shift(clock)
         self.angle_shift = 30 + round(math.log2(clock.quantum_rad))
-        self.loss = round(loss_ratio(settings) * ONE)
-        self.sixth, self.twelfth = round(ONE / 6), round(ONE / 12)
+        self.loss = round(2.0 * loss_ratio(settings) * ONE)
         self.longest, self.series = round(LONGEST_STRETCH * ONE), tuple(round(s * ONE) for s in SERIES)
         self.mismatch = round(LEAST_MISMATCH * ONE)
         self.least_answer = max(round(max_scaled * LEAST_ANSWER), 1)
-        self.least_owed = max(round(max_scaled * LEAST_OWED), 1)
-        self._rates = [0] * cells
+        self.least_lack = max(round(max_scaled * LEAST_LACK), 1)
         self._quanta = clock.fewest_quanta
+        self.inverse = (1 << self.inverse_shift) // self._quanta
         self._speed = self._answered = self._rate = self._place = self._pace = 0
 
     def turn(self, quanta: int, speed: int) -> None:
         """Take the quanta and the hoist speed of a tick."""
         if quanta != self._quanta:
-            self._place = _within(shifted(self._place * quotient(quanta * ONE, self._quanta), 30))
+            grown = self.ratio(quanta, self.inverse)
+            self._place = within(shifted(self._place * grown, 30), LARGEST_SWING)
             self._quanta = quanta
+            self.inverse = (1 << self.inverse_shift) // quanta
         self._speed = speed
         self._rate = speed * quanta
+
+    def ratio(self, quanta: int, inverse: int) -> int:
+        """Quanta times a reciprocal of quanta, in Q30."""
+        return (quanta * inverse) >> (self.inverse_shift - 30)
+
+    def ticks(self, moment: int) -> int:
+        """Divide part times phase by the quanta of a tick, in two halves of 31 bits each."""
+        size = abs(moment)
+        low = ((size & (ONE + ONE - 1)) * self.inverse) >> 31
+        found = ((size >> 31) * self.inverse + low) >> (self.inverse_shift - 31)
+        return found if moment >= 0 else -found
 
     def start(self) -> None:
         """Leave rest: the load hangs still."""
         self._place = self._pace = 0
         self._answered = self._speed
 
-    def answer(self) -> int:
-        """Step of the reference that undoes the kick of a change of hoist speed."""
+    def kick(self) -> int:
+        """Step that undoes the kick of a change of hoist speed; small ones are collected."""
         change = (self._speed - self._answered) * self._quanta
-        step = shifted(shifted(change * self.kick.factor, self.kick.shift) * self._place, 30)
+        step = shifted(shifted(change * self.kick_scale.factor, self.kick_scale.shift) * self._place, 30)
         if abs(step) < self.least_answer:
             return 0
         self._answered = self._speed
         return step
 
-    def swing(self, release: int) -> None:
+    def swing(self, step: int) -> None:
         """Let the oscillator swing for a tick, after a step of the trolley's speed."""
         shift = self.angle_shift
         angle = self._quanta << shift if shift >= 0 else self._quanta >> -shift
-        square = shifted(angle * angle, 30)
-        sine = shifted(angle * (ONE - shifted(square * self.sixth, 30)), 30)
-        cosine = ONE - shifted((square >> 1) * (ONE - shifted(square * self.twelfth, 30)), 30)
-        keep = ONE - shifted(angle * self.loss, 30)
-        pace = _within(self._pace - release)
-        self._pace = _within(shifted(shifted((pace * cosine) - (self._place * sine), 30) * keep, 30))
-        self._place = _within(shifted(shifted((self._place * cosine) + (pace * sine), 30) * keep, 30))
+        half = angle >> 1
+        pace = within(self._pace - step, LARGEST_SWING)
+        place = self._place + shifted(half * pace, 30)
+        pace = pace - shifted(angle * place, 30)
+        self._pace = within(shifted(pace * (ONE - shifted(angle * self.loss, 30)), 30), LARGEST_SWING)
+        self._place = within(place + shifted(half * self._pace, 30), LARGEST_SWING)
 
-    def remember(self, cell: int) -> None:
-        """Keep what the weights of a new cell are made for."""
-        self._rates[cell] = self._rate
-
-    def weights(self, row: int) -> list[int]:
-        """Weights of the taps for a change now, in sum 1 but for rounding."""
-        weights = []
-        for tap, amplitude in enumerate(self._tables[row].amplitudes):
-            stretch = self._stretched(self._rate, self._quanta, row, tap)
+    def foreseen(self, row: int) -> list[tuple[int, int]]:
+        """Weight of each tap for a change now, in sum 1 but for rounding; and 1 / quanta when it releases."""
+        low = max(shifted(self._quanta * self.per_most, 22) - ONE, -self.longest)
+        high = min(shifted(self._quanta * self.per_fewest, 22) - ONE, self.longest)
+        found = []
+        for amplitude, per_rate in zip(self._tables[row].amplitudes, self.stretch[row], strict=True):
+            stretch = min(max(shifted(self._rate * per_rate, self.stretch_shift), low), high)
             level = 0
             for term in reversed(self.series):
                 level = shifted(stretch * (term + level), 30)
-            weights.append(shifted(amplitude * (ONE + level), 30))
-        total = sum(weights)
-        return [quotient(weight * ONE, total) for weight in weights]
+            found.append((shifted(amplitude * (ONE + level), 30), (self.inverse * (ONE + stretch)) >> 30))
+        share = (ONE * ONE) // sum(weight for weight, _ in found)
+        return [(shifted(weight * share, 30), inverse) for weight, inverse in found]
 
-    def part(self, change: int, weight: int) -> int:
-        """Part of a change that a tap releases later."""
-        return shifted(change * weight, 30)
+    def part(self, change: int, weight: int, wanted: tuple[int, int], row: int, tap: int) -> int:
+        """Part of a change, and of the answer to a wanted step, that a tap releases later."""
+        step, lean = wanted
+        even, leaning = self.answers[row][tap]
+        return shifted((change * weight) + ((step * even) + (lean * leaning)), 30)
 
-    def due(self, part: int, cell: int, gap: int, row: int, tap: int) -> int:
-        """Give what of a part is released on the rope as it is: more on a longer one than it was made for."""
-        made_for = self._stretched(self._rates[cell], gap, row, tap)
-        longer = shifted(quotient(self._quanta * ONE, gap) * (ONE + made_for), 30)
-        excess = shifted(longer - ONE, 1)
+    def lack(self, part: int, inverse: int) -> int:
+        """Step that a part lacks on the rope as it is: this is shorter than foreseen."""
+        excess = shifted(self.ratio(self._quanta, inverse) - ONE, 1)
         if abs(excess) < self.mismatch:
-            return part
-        more = shifted(part * min(max(excess, -(ONE >> 1)), ONE >> 1), 30)
-        return part + more if abs(more) >= self.least_owed else part
-
-    def _stretched(self, rate: int, quanta: int, row: int, tap: int) -> int:
-        """Relative change of sqrt(L) until a tap releases, within the range of the rope."""
-        low = max(shifted(quanta * self.per_most, 22) - ONE, -self.longest)
-        high = min(shifted(quanta * self.per_fewest, 22) - ONE, self.longest)
-        return min(max(shifted(rate * self.stretch[row][tap], self.stretch_shift), low), high)
+            return 0
+        more = shifted(part * within(excess, ONE >> 1), 30)
+        return more if abs(more) >= self.least_lack else 0

@@ -5,7 +5,8 @@ phase until the next cell. Each tap is one pointer into the ring, which lags by 
 the quanta of every tick; a cell that it passes inside a tick is split between this tick and the next, in
 proportion. Everything is a sum of whole quanta and of numbers on one grid, so nothing is lost or drifts.
 
-What a hoist does to the swing is answered in `hoist`. Not for: ramps, stops or rows.
+What a hoist that starts or stops does to the swing, the taps answer: `hoist` says how large a step of the
+trolley's speed that wants, `hoist_answers` how the taps make it. Not for: ramps, stops or rows.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 from swayless.controller.hoist import FloatHoist
+from swayless.controller.hoist_answers import leaning_from
 from swayless.controller.hoist_int32 import IntegerHoist
 from swayless.controller.ramp import on_grid
 from swayless.controller.settings import ShaperSettings
@@ -27,7 +29,7 @@ class PhaseFilter(ABC):
     settings : ShaperSettings
         Constants in the number type of the filter.
     hoist : FloatHoist or IntegerHoist
-        The answer to hoisting.
+        What hoisting does.
     """
 
     def __init__(self, settings: ShaperSettings, hoist: FloatHoist | IntegerHoist) -> None:
@@ -37,10 +39,12 @@ class PhaseFilter(ABC):
         self._last = last_cell(settings)
         taps = max(len(table.lags) for table in self._tables)
         self._parts = [[self._zero] * (self._last + 1) for _ in range(taps)]
+        self._foreseen = [[self._zero] * (self._last + 1) for _ in range(taps)]
         self._gaps = [0] * (self._last + 1)
         self._cells, self._ahead = [0] * taps, [0] * taps
         self._head = self._last
-        self._base = self._level = self._late = self._mass = self._zero
+        self._leaning_from = leaning_from(settings)
+        self._base = self._command = self._level = self._late = self._mass = self._zero
         self.is_running = self.has_pushed = False
         self.elapsed = self._quanta = self._clock.fewest_quanta
 
@@ -64,13 +68,14 @@ class PhaseFilter(ABC):
         if not self.is_running:
             self._leave_rest(row)
         self._head = 0 if self._head >= self._last else self._head + 1
-        release, owed = self._pass(row)
-        answer = self._hoist.answer()
-        change = (self._arrived(command) - answer) + owed
-        self.has_pushed = bool(change != 0)
-        release = release + self._push(change, row)
-        self._hoist.swing(release)
-        self._level = self._level + (release + answer)
+        release, lack = self._pass(row)
+        change = self._arrived(command)
+        kick = self._hoist.kick()
+        wanted = self._within(kick + lack)
+        release = release + self._push(change, (wanted, self._lean(change, wanted)), row)
+        # The oscillator knows nothing of the kick, so it is not shown what undoes it.
+        self._hoist.swing(release - kick)
+        self._level = self._level + release
         return self._reference()
 
     def _leave_rest(self, row: int) -> None:
@@ -84,36 +89,48 @@ class PhaseFilter(ABC):
         self._hoist.start()
 
     def _pass(self, row: int) -> tuple[Any, Any]:
-        """Move every pointer by a tick: what is released now, and what is owed after a change of hoist."""
-        release, owed = self._late, self._zero
+        """Move every pointer by a tick: what is released now, and what it lacks after a change of hoist."""
+        release, lack = self._late, self._zero
         self._late = self._zero
         for tap in range(1, len(self._tables[row].lags)):
-            parts, ahead, cell = self._parts[tap], self._ahead[tap], self._cells[tap]
+            ahead, cell = self._ahead[tap], self._cells[tap]
             while ahead < self._quanta:
-                part, gap = parts[cell], self._gaps[cell]
+                part = self._parts[tap][cell]
                 if part != 0:
-                    due = self._hoist.due(part, cell, gap, row, tap)
-                    late = self._later(due, ahead)
-                    release = release + (due - late)
+                    late = self._later(part, ahead)
+                    release = release + (part - late)
                     self._late = self._late + late
-                    owed = owed + (part - due)
+                    lack = lack + self._hoist.lack(part, self._foreseen[tap][cell])
                     self._leave(part, ahead, in_lap=cell <= self._head)
-                ahead += gap
+                ahead += self._gaps[cell]
                 cell = 0 if cell >= self._last else cell + 1
             self._ahead[tap], self._cells[tap] = ahead - self._quanta, cell
-        return release, owed
+        return release, lack
 
-    def _push(self, change: Any, row: int) -> Any:
+    def _lean(self, change: Any, wanted: Any) -> Any:
+        """Lean away from the largest command where the command is next to it and does not shrink."""
+        if self._command > self._leaning_from and change >= 0:
+            return -abs(wanted)
+        if self._command < -self._leaning_from and change <= 0:
+            return abs(wanted)
+        return self._zero
+
+    def _push(self, change: Any, wanted: tuple[Any, Any], row: int) -> Any:
         """Write a cell; returns the part of the first tap, which is what the others leave."""
         lags = self._tables[row].lags
         self._gaps[self._head] = self._quanta
-        self._hoist.remember(self._head)
-        first = change
-        moment = self._zero
-        weights = self._hoist.weights(row) if change != 0 else []
+        self.has_pushed = bool(change != 0 or wanted[0] != 0)
+        if not self.has_pushed:
+            for tap in range(1, len(lags)):
+                self._parts[tap][self._head] = self._zero
+            self._enter(self._zero, self._zero)
+            return self._zero
+        first, moment = change, self._zero
+        foreseen = self._hoist.foreseen(row)
         for tap in range(1, len(lags)):
-            part = self._hoist.part(change, weights[tap]) if change != 0 else self._zero
-            self._parts[tap][self._head] = part
+            weight, inverse = foreseen[tap]
+            part = self._hoist.part(change, weight, wanted, row, tap)
+            self._parts[tap][self._head], self._foreseen[tap][self._head] = part, inverse
             first = first - part
             moment = moment + (part * self._lag(lags[tap]))
         self._enter(change - first, moment)
@@ -134,7 +151,10 @@ class PhaseFilter(ABC):
     def _arrived(self, command: Any) -> Any: ...
 
     @abstractmethod
-    def _later(self, due: Any, ahead: int) -> Any: ...
+    def _within(self, wanted: Any) -> Any: ...
+
+    @abstractmethod
+    def _later(self, part: Any, ahead: int) -> Any: ...
 
     @abstractmethod
     def _lag(self, lag: int) -> Any: ...
@@ -159,12 +179,11 @@ class FloatPhaseFilter(PhaseFilter):
     """
 
     def __init__(self, settings: ShaperSettings) -> None:
-        hoist = FloatHoist(settings, last_cell(settings) + 1)
-        super().__init__(settings, hoist)
-        self._floats = hoist
+        self._floats = FloatHoist(settings)
+        super().__init__(settings, self._floats)
         self._scalar, self._limits = settings.number.scalar, settings.limits
         self._moments = tuple(self._scalar(float(table.moment)) for table in self._tables)
-        self._command = self._moment = self._passed = self._zero
+        self._moment = self._passed = self._zero
         self._fresh = self._fresh_mass = self._fresh_passed = self._zero
 
     def rest_sum(self, command: Any, row: int) -> Any:
@@ -187,8 +206,11 @@ class FloatPhaseFilter(PhaseFilter):
         self._command = command
         return change
 
-    def _later(self, due: Any, ahead: int) -> Any:
-        return on_grid(due * (self._scalar(ahead) * self._floats.inverse), self._limits)
+    def _within(self, wanted: Any) -> Any:
+        return wanted
+
+    def _later(self, part: Any, ahead: int) -> Any:
+        return on_grid(part * (self._scalar(ahead) * self._floats.inverse), self._limits)
 
     def _lag(self, lag: int) -> Any:
         return self._scalar(lag)

@@ -6,8 +6,8 @@ rounding to counts takes from one reference, the carry gives to the next. Not fo
 
 from __future__ import annotations
 
-from swayless.controller.hoist_int32 import ONE, IntegerHoist, quotient, shifted
-from swayless.controller.phase_filter import PhaseFilter, last_cell
+from swayless.controller.hoist_int32 import LARGEST_WANTED, ONE, IntegerHoist, shifted, within
+from swayless.controller.phase_filter import PhaseFilter
 from swayless.controller.settings import ShaperSettings
 
 
@@ -25,11 +25,10 @@ class IntegerPhaseFilter(PhaseFilter):
     def __init__(self, settings: ShaperSettings) -> None:
         self._shift = command_shift(settings)
         self._limit = int(settings.limits.max_command)
-        super().__init__(
-            settings, IntegerHoist(settings, last_cell(settings) + 1, self._limit << self._shift)
-        )
+        self._whole = IntegerHoist(settings, self._limit << self._shift)
+        super().__init__(settings, self._whole)
         self._moments = tuple(divmod(int(table.moment * ONE), ONE) for table in self._tables)
-        self._command = self._moment = self._passed = self._carry = 0
+        self._moment = self._passed = self._carry = 0
 
     def rest(self, command: int) -> None:
         """Enter rest at `command`, or stay there."""
@@ -55,7 +54,7 @@ class IntegerPhaseFilter(PhaseFilter):
     def _in_counts(self, moment: int) -> int:
         """Turn a scaled sum of part times phase into references to come, in counts times ticks."""
         half = (1 << self._shift) >> 1
-        return (quotient(moment, self._quanta) + self._carry + half) >> self._shift
+        return (self._whole.ticks(moment) + self._carry + half) >> self._shift
 
     def _start(self) -> None:
         self._command = self._base
@@ -63,12 +62,15 @@ class IntegerPhaseFilter(PhaseFilter):
         self._moment = self._passed = 0
 
     def _arrived(self, command: int) -> int:
-        change = (command - self._command) << self._shift
+        change: int = (command - self._command) << self._shift
         self._command = command
         return change
 
-    def _later(self, due: int, ahead: int) -> int:
-        return shifted(due * quotient(ahead * ONE, self._quanta), 30)
+    def _within(self, wanted: int) -> int:
+        return within(wanted, LARGEST_WANTED)
+
+    def _later(self, part: int, ahead: int) -> int:
+        return shifted(part * self._whole.ratio(ahead, self._whole.inverse), 30)
 
     def _lag(self, lag: int) -> int:
         return lag

@@ -33,9 +33,7 @@ def compiled(settings, compiler=None, change=("", "")):
     assert old in files[1].text
     source = GeneratedFile(files[1].path, files[1].text.replace(old, new, 1)) if old else files[1]
     made = (files[0], source, *files[2:])
-    with CompiledBlock(
-        made, c_harness(settings, ORIGIN), compiler or find_compiler(), settings.number
-    ) as block:
+    with CompiledBlock(made, c_harness(settings, ORIGIN), compiler or find_compiler(), settings) as block:
         yield block
 
 
@@ -69,22 +67,29 @@ def test_every_compiler_on_this_machine_agrees(number):
 
 
 CHANGES = {
-    "an answer is not given back": ("(flow.release + answer)", "flow.release"),
+    "a kick is shown to the swing": ("flow.release - kick", "flow.release"),
+    "what a part lacks is not wanted": ("kick + flow.wanted", "kick"),
+    "a kick is not undone": ("flow.wanted = kick", "flow.wanted = 0.0"),
+    "an answer does not lean": ("lean = -size;", "lean = 0.0;"),
+    "an answer leans the wrong way": ("lean = size;", "lean = -size;"),
+    "weights are kept too long": ("s->weighed = false;\n    }\n    s->rate", "}\n    s->rate"),
     "what is late is forgotten": ("s->late = s->late + late;", "s->late = late;"),
-    "a changed rope leaves the stop distance": ("s->foretold = false;\n    }\n    s->rate", "}\n    s->rate"),
-    "what is owed does not put off rest": ("s->still_quanta = 0u;\n    }\n    for", "}\n    for"),
+    "a changed rope leaves the stop distance": ("s->foretold = false;\n    }\n}", "}\n}"),
+    "an answer does not put off rest": ("s->still_quanta = 0u;\n        if", "if"),
     "a tick counts for the next one's quanta": ("elapsed_quanta = s->quanta", "elapsed_quanta = quanta"),
     "a part is weighted for a rope that stays": (
         "s->rate * crane_STRETCH[tap]",
         "0.5 * s->rate * crane_STRETCH[tap]",
     ),
-    "a part is never corrected": ("due = part + more;", "due = part;"),
+    "a part lacks less": ("foreseen) - 1.0) * 0.5", "foreseen) - 1.0) * 0.25"),
+    "nothing is foreseen": ("s->inverse * (1.0 + z)", "s->inverse"),
     "the mass of a lap is all mass": ("s->fresh_mass = s->fresh_mass - part;", "s->fresh_mass -= s->mass;"),
     "a lap's moment is forgotten": ("s->moment = s->fresh;", "s->moment = 0.0;"),
     "idle although the rope is not": ("&& s->rope_still", "&& true"),
     "a jump is believed": ("<= reach", "<= (reach + 1.0)"),
     "a frozen rope counts on": ("s->unmoved = 0.0;\n    } else", "s->unmoved += 0.001;\n    } else"),
-    "the swing is not damped": ("(angle * crane_LOSS_RATIO)", "(0.0 * crane_LOSS_RATIO)"),
+    "the swing is not damped": ("(angle * crane_LOSS)", "(0.0 * crane_LOSS)"),
+    "the swing moves a tick late": ("s->place + (half * pace)", "s->place + (half * s->pace)"),
     "the swing keeps its place when the rope does not": ("(count * s->inverse)", "(count / count)"),
     "a held length is not counted": ("s->held_ticks += 1u;", "s->held_ticks += 0u;"),
 }

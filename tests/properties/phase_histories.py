@@ -12,10 +12,11 @@ from tests.unit.controller.blocks import command_of, phase_block
 
 TICK_S = 0.05
 ROPE_LENGTH_M = (3.0, 9.0)
+FAMILIES = ("zv", "zvd", "ei", "zvdd", "ei3")
 
 
 @st.composite
-def phase_blocks(draw, numbers=NUMBERS, **limits):
+def phase_blocks(draw, numbers=NUMBERS, families=FAMILIES, damping_ratios=(0.0, 0.02, 0.1), **limits):
     """Settings of a phase clock: any positive family, damped or not, and ramps of 1 to 40 ticks."""
     ramps = {
         f"{name}_m_s2": draw(st.sampled_from([40.0, 0.4, 1.1]))
@@ -23,8 +24,8 @@ def phase_blocks(draw, numbers=NUMBERS, **limits):
     }
     return phase_block(
         draw(st.sampled_from(numbers)),
-        family=draw(st.sampled_from(["zv", "zvd", "ei", "zvdd", "ei3"])),
-        damping_ratio=draw(st.sampled_from([0.0, 0.02, 0.1])),
+        family=draw(st.sampled_from(families)),
+        damping_ratio=draw(st.sampled_from(damping_ratios)),
         rope_length_m=ROPE_LENGTH_M,
         hoist_speed_m_s=draw(st.sampled_from([0.3, 1.0])),
         tick_s=TICK_S,
@@ -45,7 +46,7 @@ def ramp_ticks(settings):
 
 
 def ticks_to_rest(settings):
-    """Ticks after which all is at rest on a rope that stands: ramp, taps, what is owed, and its answer."""
+    """Ticks after which all is at rest on a rope that stands: ramp, taps, answers, and what these lack."""
     return ramp_ticks(settings) + 4 * longest_tail(settings)
 
 

@@ -88,5 +88,5 @@ def test_the_head_names_the_law_the_signs_and_what_bad_readings_do():
 def test_the_memory_of_the_ring_follows_the_longest_lag_on_the_longest_rope():
     short, long = (phase_block(rope_length_m=(3.0, longest)) for longest in (4.0, 9.0))
     small, large = (CModel(settings, ORIGIN).state.ram_bytes for settings in (short, long))
-    cell_bytes = 48  # two parts, two stretches, an inverse and a gap, aligned
+    cell_bytes = 40  # two parts, two inverses that are foreseen, and a gap, aligned
     assert large - small == cell_bytes * (long.longest_delay_ticks - short.longest_delay_ticks)

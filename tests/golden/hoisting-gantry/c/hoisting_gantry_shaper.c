@@ -31,13 +31,12 @@ static const hoisting_gantry_real_t hoisting_gantry_QUANTUM_RAD = 7.450580596923
 static const hoisting_gantry_real_t hoisting_gantry_KICK_PER_QUANTUM = 7.597477830781998e-08; /* QUANTUM_RAD / (9.80665 m/s2 tick) */
 static const hoisting_gantry_real_t hoisting_gantry_PER_MOST = 4.1208836493226916e-07; /* 1 / quanta of a tick on the shortest rope */
 static const hoisting_gantry_real_t hoisting_gantry_PER_FEWEST = 7.137580431609489e-07; /* 1 / quanta of a tick on the longest rope */
-static const hoisting_gantry_real_t hoisting_gantry_LOSS_RATIO = 0.001; /* damping ratio of the swing */
-static const hoisting_gantry_real_t hoisting_gantry_SIXTH = 0.16666666666666666; /* sin x = x (1 - x^2 / 6) */
-static const hoisting_gantry_real_t hoisting_gantry_TWELFTH = 0.08333333333333333; /* cos x = 1 - x^2 / 2 (1 - x^2 / 12) */
+static const hoisting_gantry_real_t hoisting_gantry_LOSS = 0.002; /* twice the damping ratio of the swing */
 static const hoisting_gantry_real_t hoisting_gantry_LONGEST_STRETCH = 0.5; /* most change of sqrt(rope length) foreseen */
 static const hoisting_gantry_real_t hoisting_gantry_LEAST_MISMATCH = 0.001953125; /* least relative error of a part that is corrected */
 static const hoisting_gantry_real_t hoisting_gantry_LEAST_ANSWER = 0.00020751953124999997; /* smaller kicks are collected */
-static const hoisting_gantry_real_t hoisting_gantry_LEAST_OWED = 8.106231689453124e-07; /* smaller corrections are left out */
+static const hoisting_gantry_real_t hoisting_gantry_LEAST_LACK = 8.106231689453124e-07; /* smaller corrections are left out */
+static const hoisting_gantry_real_t hoisting_gantry_LEANING_FROM = 0.8367187499999998; /* from here on answers lean away from the maximum */
 
 /* first tap of each row, and the end */
 static const uint32_t hoisting_gantry_FIRST_TAP[3] = {
@@ -110,6 +109,16 @@ static const hoisting_gantry_real_t hoisting_gantry_STRETCH[4] = {
 static const hoisting_gantry_real_t hoisting_gantry_SERIES[4] = {
     -0.5, 0.375, -0.3125, 0.2734375
 };
+/* steps of the taps, by row, that answer a wanted step of 1: in sum 0, and without way */
+static const hoisting_gantry_real_t hoisting_gantry_ANSWER[4] = {
+    0.0,
+    0.2500000002964489, -0.49999999999999956, 0.24999999970355072
+};
+/* steps of the taps, by row, that excite nothing: with them an answer goes only up or only down */
+static const hoisting_gantry_real_t hoisting_gantry_LEAN[4] = {
+    0.0,
+    0.2500000002964489, 0.0, -0.250000000296449
+};
 
 /* A ramp: its step per tick, rounded up to the grid, and what its closed form needs. */
 typedef struct {
@@ -153,10 +162,12 @@ static bool hoisting_gantry_running(const hoisting_gantry_shaper_t *s)
     return s->running;
 }
 
-/* What one tick moves: references released, what a change of hoist owes, and part times phase that is left. */
+/* What one tick moves: references released, part times phase that is left, and the step that the swing wants
+ * after a change of hoist, with how far its answer leans up or down. */
 typedef struct {
     hoisting_gantry_real_t release;
-    hoisting_gantry_real_t owed;
+    hoisting_gantry_real_t wanted;
+    hoisting_gantry_real_t lean;
     hoisting_gantry_real_t passed;
     hoisting_gantry_real_t fresh_passed;
 } hoisting_gantry_flow_t;
@@ -189,11 +200,11 @@ static void hoisting_gantry_hold_rope(hoisting_gantry_shaper_t *s)
 }
 
 /* Take a rope length where it can be true; otherwise the last one holds. At rest every length can. */
-static void hoisting_gantry_read_length(hoisting_gantry_shaper_t *s, hoisting_gantry_real_t length)
+static void hoisting_gantry_take_length(hoisting_gantry_shaper_t *s, hoisting_gantry_real_t reading)
 {
-    const hoisting_gantry_real_t clamped = hoisting_gantry_within(length, hoisting_gantry_SHORTEST_ROPE, hoisting_gantry_LONGEST_ROPE);
+    const hoisting_gantry_real_t clamped = hoisting_gantry_within(reading, hoisting_gantry_SHORTEST_ROPE, hoisting_gantry_LONGEST_ROPE);
     const hoisting_gantry_real_t reach = hoisting_gantry_ROPE_JUMP + ((hoisting_gantry_real_t)(s->held_ticks + 1u) * hoisting_gantry_ROPE_WAY_PER_TICK);
-    if (!hoisting_gantry_equal(clamped, length)) {
+    if (!hoisting_gantry_equal(clamped, reading)) {
         s->status |= HOISTING_GANTRY_SHAPER_ROPE_OUT_OF_RANGE;
     }
     if (!hoisting_gantry_running(s) || (hoisting_gantry_abs(clamped - s->rope_length) <= reach)) {
@@ -231,7 +242,7 @@ static void hoisting_gantry_read_rope(hoisting_gantry_shaper_t *s, const hoistin
         s->status |= HOISTING_GANTRY_SHAPER_HOIST_SPEED_INVALID;
     }
     if (input->rope_length_valid && hoisting_gantry_is_number(input->rope_length_m)) {
-        hoisting_gantry_read_length(s, input->rope_length_m);
+        hoisting_gantry_take_length(s, input->rope_length_m);
     } else {
         s->status |= HOISTING_GANTRY_SHAPER_ROPE_INVALID;
         hoisting_gantry_hold_rope(s);
@@ -249,8 +260,8 @@ static void hoisting_gantry_rescale(hoisting_gantry_shaper_t *s, uint32_t quanta
     s->inverse = 1.0 / count;
 }
 
-/* Step of the reference that undoes the kick of a change of hoist speed; small ones are collected. */
-static hoisting_gantry_real_t hoisting_gantry_answer(hoisting_gantry_shaper_t *s)
+/* Step of the trolley's speed that undoes the kick of a change of hoist speed; small ones are collected. */
+static hoisting_gantry_real_t hoisting_gantry_kick(hoisting_gantry_shaper_t *s)
 {
     const hoisting_gantry_real_t change = s->hoist_speed - s->answered;
     const hoisting_gantry_real_t kick = (change * ((hoisting_gantry_real_t)s->quanta * hoisting_gantry_KICK_PER_QUANTUM)) * s->place;
@@ -263,22 +274,21 @@ static hoisting_gantry_real_t hoisting_gantry_answer(hoisting_gantry_shaper_t *s
     return step;
 }
 
-/* Let the load swing for a tick, after a step of the trolley's speed. */
-static void hoisting_gantry_swing(hoisting_gantry_shaper_t *s, hoisting_gantry_real_t release)
+/* Let the load swing for a tick, after a step of the trolley's speed: half of its way before, half after. */
+static void hoisting_gantry_swing(hoisting_gantry_shaper_t *s, hoisting_gantry_real_t step)
 {
     const hoisting_gantry_real_t angle = (hoisting_gantry_real_t)s->quanta * hoisting_gantry_QUANTUM_RAD;
-    const hoisting_gantry_real_t square = angle * angle;
-    const hoisting_gantry_real_t sine = angle * (1.0 - (square * hoisting_gantry_SIXTH));
-    const hoisting_gantry_real_t cosine = 1.0 - ((square * 0.5) * (1.0 - (square * hoisting_gantry_TWELFTH)));
-    const hoisting_gantry_real_t keep = 1.0 - (angle * hoisting_gantry_LOSS_RATIO);
-    const hoisting_gantry_real_t pace = s->pace - release;
-    s->pace = ((pace * cosine) - (s->place * sine)) * keep;
-    s->place = ((s->place * cosine) + (pace * sine)) * keep;
+    const hoisting_gantry_real_t half = angle * 0.5;
+    const hoisting_gantry_real_t pace = s->pace - step;
+    const hoisting_gantry_real_t place = s->place + (half * pace);
+    s->pace = (pace - (angle * place)) * (1.0 - (angle * hoisting_gantry_LOSS));
+    s->place = place + (half * s->pace);
 }
 
 /* Weights of the later taps for a change now: (1 + z)^(-1/2) as a series, z the change of sqrt(rope length)
- * until the tap, within the range of the rope. The first tap releases on the rope as it is. */
-static void hoisting_gantry_weigh(const hoisting_gantry_shaper_t *s, hoisting_gantry_shaper_cell_t *cell, hoisting_gantry_real_t *weight)
+ * until the tap, within the range of the rope. The first tap releases on the rope as it is;
+ * found once for a rate. */
+static void hoisting_gantry_weigh(hoisting_gantry_shaper_t *s)
 {
     const uint32_t first = hoisting_gantry_FIRST_TAP[s->row] + 1u;
     const uint32_t end = hoisting_gantry_FIRST_TAP[s->row + 1u];
@@ -297,36 +307,35 @@ static void hoisting_gantry_weigh(const hoisting_gantry_shaper_t *s, hoisting_ga
     for (tap = first; tap < end; ++tap) {
         const hoisting_gantry_real_t z = hoisting_gantry_within(s->rate * hoisting_gantry_STRETCH[tap], low, high);
         const hoisting_gantry_real_t tail = hoisting_gantry_SERIES[1] + (z * (hoisting_gantry_SERIES[2] + (z * hoisting_gantry_SERIES[3])));
-        cell->stretch[tap - first] = z;
-        weight[tap - first] = hoisting_gantry_AMPLITUDE[tap] * (1.0 + (z * (hoisting_gantry_SERIES[0] + (z * tail))));
-        total = total + weight[tap - first];
+        s->foreseen[tap - first] = s->inverse * (1.0 + z);
+        s->weight[tap - first] = hoisting_gantry_AMPLITUDE[tap] * (1.0 + (z * (hoisting_gantry_SERIES[0] + (z * tail))));
+        total = total + s->weight[tap - first];
     }
     share = 1.0 / total;
     for (tap = first; tap < end; ++tap) {
-        weight[tap - first] = weight[tap - first] * share;
+        s->weight[tap - first] = s->weight[tap - first] * share;
     }
 }
 
-/* Part of a change that a tap releases later. */
-static hoisting_gantry_real_t hoisting_gantry_part(hoisting_gantry_real_t change, hoisting_gantry_real_t weight)
+/* Part of a change, and of the answer to a wanted step, that a tap releases later. */
+static hoisting_gantry_real_t hoisting_gantry_part(const hoisting_gantry_flow_t *flow, hoisting_gantry_real_t change, hoisting_gantry_real_t weight, uint32_t tap)
 {
-    return hoisting_gantry_on_grid(change * weight);
+    const hoisting_gantry_real_t answer = (flow->wanted * hoisting_gantry_ANSWER[tap]) + (flow->lean * hoisting_gantry_LEAN[tap]);
+    return hoisting_gantry_on_grid((change * weight) + answer);
 }
 
-/* What of a part is released on the rope as it is: more on a longer one than it was made for. */
-static hoisting_gantry_real_t hoisting_gantry_due(const hoisting_gantry_shaper_t *s, const hoisting_gantry_shaper_cell_t *cell, uint32_t later)
+/* Step that a part lacks on the rope as it is: this is shorter than foreseen. */
+static hoisting_gantry_real_t hoisting_gantry_lack(const hoisting_gantry_shaper_t *s, hoisting_gantry_real_t part, hoisting_gantry_real_t foreseen)
 {
-    const hoisting_gantry_real_t part = cell->part[later];
-    const hoisting_gantry_real_t longer = ((hoisting_gantry_real_t)s->quanta * cell->inverse) * (1.0 + cell->stretch[later]);
-    const hoisting_gantry_real_t excess = (longer - 1.0) * 0.5;
-    hoisting_gantry_real_t due = part;
+    const hoisting_gantry_real_t excess = (((hoisting_gantry_real_t)s->quanta * foreseen) - 1.0) * 0.5;
+    hoisting_gantry_real_t lack = 0.0;
     if (hoisting_gantry_abs(excess) >= hoisting_gantry_LEAST_MISMATCH) {
-        const hoisting_gantry_real_t more = hoisting_gantry_on_grid(part * hoisting_gantry_within(excess, -0.5, 0.5));
-        if (hoisting_gantry_abs(more) >= hoisting_gantry_LEAST_OWED) {
-            due = part + more;
+        lack = hoisting_gantry_on_grid(part * hoisting_gantry_within(excess, -0.5, 0.5));
+        if (hoisting_gantry_abs(lack) < hoisting_gantry_LEAST_LACK) {
+            lack = 0.0;
         }
     }
-    return due;
+    return lack;
 }
 
 /* Quanta of phase in a tick, off the table; the rope length is within its range. */
@@ -358,13 +367,17 @@ static void hoisting_gantry_count_still(hoisting_gantry_shaper_t *s)
 static void hoisting_gantry_turn(hoisting_gantry_shaper_t *s)
 {
     const uint32_t quanta = hoisting_gantry_tick_quanta(s->rope_length);
+    const hoisting_gantry_real_t rate = s->hoist_speed * (hoisting_gantry_real_t)quanta;
     s->elapsed_quanta = s->quanta;
+    if ((quanta != s->quanta) || (rate < s->rate) || (rate > s->rate)) {
+        s->weighed = false;
+    }
+    s->rate = rate;
     if (quanta != s->quanta) {
         hoisting_gantry_rescale(s, quanta);
         s->quanta = quanta;
         s->foretold = false;
     }
-    s->rate = s->hoist_speed * (hoisting_gantry_real_t)s->quanta;
 }
 
 static bool hoisting_gantry_is_zero(hoisting_gantry_real_t value)
@@ -390,9 +403,9 @@ static hoisting_gantry_real_t hoisting_gantry_arrived(hoisting_gantry_shaper_t *
 }
 
 /* Share of a part that belongs to the next tick, because its phase is reached late in this one. */
-static hoisting_gantry_real_t hoisting_gantry_later(const hoisting_gantry_shaper_t *s, hoisting_gantry_real_t due, uint32_t ahead)
+static hoisting_gantry_real_t hoisting_gantry_later(const hoisting_gantry_shaper_t *s, hoisting_gantry_real_t part, uint32_t ahead)
 {
-    return hoisting_gantry_on_grid(due * ((hoisting_gantry_real_t)ahead * s->inverse));
+    return hoisting_gantry_on_grid(part * ((hoisting_gantry_real_t)ahead * s->inverse));
 }
 
 /* A part leaves the sums. */
@@ -461,6 +474,7 @@ static void hoisting_gantry_leave_rest(hoisting_gantry_shaper_t *s)
     s->place = 0.0;
     s->pace = 0.0;
     s->answered = s->hoist_speed;
+    s->weighed = false;
 }
 
 /* Release a part that a pointer has reached, split between this tick and the next. */
@@ -468,15 +482,14 @@ static void hoisting_gantry_release(hoisting_gantry_shaper_t *s, hoisting_gantry
 {
     const hoisting_gantry_shaper_cell_t *const cell = &s->ring[s->next[later]];
     const hoisting_gantry_real_t part = cell->part[later];
-    const hoisting_gantry_real_t due = hoisting_gantry_due(s, cell, later);
-    const hoisting_gantry_real_t late = hoisting_gantry_later(s, due, ahead);
-    flow->release = flow->release + (due - late);
+    const hoisting_gantry_real_t late = hoisting_gantry_later(s, part, ahead);
+    flow->release = flow->release + (part - late);
     s->late = s->late + late;
-    flow->owed = flow->owed + (part - due);
+    flow->wanted = flow->wanted + hoisting_gantry_lack(s, part, cell->foreseen[later]);
     hoisting_gantry_leave(s, flow, part, ahead, s->next[later] <= s->head);
 }
 
-/* Move the pointers of the later taps by a tick; each passes 3 cells at most. */
+/* Move the pointers of the later taps by a tick; each passes 2 cells at most. */
 static void hoisting_gantry_pass(hoisting_gantry_shaper_t *s, hoisting_gantry_flow_t *flow)
 {
     const uint32_t first = hoisting_gantry_FIRST_TAP[s->row] + 1u;
@@ -497,26 +510,44 @@ static void hoisting_gantry_pass(hoisting_gantry_shaper_t *s, hoisting_gantry_fl
     }
 }
 
+/* Lean away from the largest command where the command is next to it and does not shrink: only down, not up. */
+static hoisting_gantry_real_t hoisting_gantry_lean(const hoisting_gantry_shaper_t *s, hoisting_gantry_real_t change, hoisting_gantry_real_t wanted)
+{
+    const hoisting_gantry_real_t size = (wanted < 0.0) ? -wanted : wanted;
+    hoisting_gantry_real_t lean = 0.0;
+    if ((s->base > hoisting_gantry_LEANING_FROM) && (change >= 0.0)) {
+        lean = -size;
+    } else if ((s->base < -hoisting_gantry_LEANING_FROM) && (change <= 0.0)) {
+        lean = size;
+    } else {
+        /* there is room up and down */
+    }
+    return lean;
+}
+
 /* Write a cell; returns the part of the first tap, which is what the others leave. */
 static hoisting_gantry_real_t hoisting_gantry_push(hoisting_gantry_shaper_t *s, const hoisting_gantry_flow_t *flow, hoisting_gantry_real_t change)
 {
     const uint32_t first = hoisting_gantry_FIRST_TAP[s->row] + 1u;
     const uint32_t end = hoisting_gantry_FIRST_TAP[s->row + 1u];
-    const bool changes = !hoisting_gantry_is_zero(change);
+    const bool changes = !(hoisting_gantry_is_zero(change) && hoisting_gantry_is_zero(flow->wanted));
     hoisting_gantry_shaper_cell_t *const cell = &s->ring[s->head];
-    hoisting_gantry_real_t weight[HOISTING_GANTRY_SHAPER_LATER_TAPS] = { 0.0 };
     hoisting_gantry_real_t direct = change;
     hoisting_gantry_real_t moment = 0.0;
     uint32_t tap;
     cell->gap = s->quanta;
-    cell->inverse = s->inverse;
     if (changes) {
-        hoisting_gantry_weigh(s, cell, weight);
         s->still_quanta = 0u;
+        if (!s->weighed) {
+            hoisting_gantry_weigh(s);
+            s->weighed = true;
+        }
     }
     for (tap = first; tap < end; ++tap) {
-        const hoisting_gantry_real_t part = changes ? hoisting_gantry_part(change, weight[tap - first]) : 0.0;
-        cell->part[tap - first] = part;
+        const uint32_t later = tap - first;
+        const hoisting_gantry_real_t part = changes ? hoisting_gantry_part(flow, change, s->weight[later], tap) : 0.0;
+        cell->part[later] = part;
+        cell->foreseen[later] = s->foreseen[later];
         direct = direct - part;
         moment = moment + (part * (hoisting_gantry_real_t)hoisting_gantry_LAG_QUANTA[tap]);
     }
@@ -528,23 +559,26 @@ static hoisting_gantry_real_t hoisting_gantry_push(hoisting_gantry_shaper_t *s, 
 static hoisting_gantry_real_t hoisting_gantry_run(hoisting_gantry_shaper_t *s, hoisting_gantry_real_t command)
 {
     hoisting_gantry_flow_t flow;
-    hoisting_gantry_real_t answer;
+    hoisting_gantry_real_t kick;
     hoisting_gantry_real_t change;
     if (!s->running) {
         hoisting_gantry_leave_rest(s);
     }
     s->head = (s->head >= hoisting_gantry_LAST_CELL) ? 0u : (s->head + 1u);
     flow.release = s->late;
-    flow.owed = 0.0;
+    flow.wanted = 0.0;
     flow.passed = 0.0;
     flow.fresh_passed = 0.0;
     s->late = 0.0;
     hoisting_gantry_pass(s, &flow);
-    answer = hoisting_gantry_answer(s);
-    change = (hoisting_gantry_arrived(s, command) - answer) + flow.owed;
+    change = hoisting_gantry_arrived(s, command);
+    kick = hoisting_gantry_kick(s);
+    flow.wanted = kick + flow.wanted;
+    flow.lean = hoisting_gantry_lean(s, change, flow.wanted);
     flow.release = flow.release + hoisting_gantry_push(s, &flow, change);
-    hoisting_gantry_swing(s, flow.release);
-    s->level = s->level + (flow.release + answer);
+    /* The swing beside the reference knows nothing of the kick, so it is not shown what undoes it. */
+    hoisting_gantry_swing(s, flow.release - kick);
+    s->level = s->level + flow.release;
     return hoisting_gantry_reference(s);
 }
 
@@ -890,6 +924,7 @@ void hoisting_gantry_shaper_init(hoisting_gantry_shaper_t *shaper)
     s->inverse = 7.137580431609489e-07;
     s->answered = 0.0;
     s->quanta = 1401035u;
+    s->weighed = false;
     s->elapsed_quanta = 1401035u;
     s->base = 0.0;
     s->target = 0.0;

@@ -17,16 +17,16 @@
  * has swung on by the phase designed, however the rope was hoisted meanwhile. Give the rope length and
  * its rate of change, positive when the load sinks, on every tick. A hoist that starts or stops under a
  * swinging load kicks it: the reference answers with a step, and may pass the present command by that,
- * but never the maximum. The stop distance is exact on a rope that is held still; a hoist that has just
- * changed its speed makes it approximate until what it owes is released.
+ * but never the maximum. The stop distance is exact on a rope that is held still from now on; the stop
+ * time does not know the answers to come, which end by one run more and go as far back as forth.
  * A rope length that is not valid, not finite or farther from the last one than the hoist could have
  * moved is not taken: the last one holds, shaping goes on and a status bit says so. At rest every length
  * is taken.
  * Rope 3 to 9 m, hoisted with at most 0.4 m/s.
  *
  * Call hoisting_gantry_shaper_init() once, then hoisting_gantry_shaper_step() once per tick.
- * State: 29288 bytes at most, owned by the caller; no heap, globals or libm.
- * Work per tick: the taps of the row in use, at most 3, and at most 3 cells of each; none settled on a still rope.
+ * State: 24496 bytes at most, owned by the caller; no heap, globals or libm.
+ * Work per tick: the taps of the row in use, at most 3, and at most 2 cells of each; none settled on a still rope.
  * Bit equality with the reference needs -ffp-contract=off, and no -ffast-math.
  *
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -55,7 +55,7 @@ typedef double hoisting_gantry_real_t;
 /// Taps of the longest row, but for the first.
 #define HOISTING_GANTRY_SHAPER_LATER_TAPS (2)
 /// Upper bound of sizeof(hoisting_gantry_shaper_t), in bytes; checked when compiled.
-#define HOISTING_GANTRY_SHAPER_RAM (29288)
+#define HOISTING_GANTRY_SHAPER_RAM (24496)
 /// First and last part of the SHA-256 of the design; the .c file refuses another header's.
 #define HOISTING_GANTRY_SHAPER_DESIGN (0x0d62ecaeu)
 
@@ -121,8 +121,7 @@ typedef struct {
 /// One change of the command, on its way to the later taps; what the first tap has is released at once.
 typedef struct {
     hoisting_gantry_real_t part[HOISTING_GANTRY_SHAPER_LATER_TAPS]; ///< part of each later tap
-    hoisting_gantry_real_t stretch[HOISTING_GANTRY_SHAPER_LATER_TAPS]; ///< change of sqrt(rope length) it is made for
-    hoisting_gantry_real_t inverse; ///< 1 / gap
+    hoisting_gantry_real_t foreseen[HOISTING_GANTRY_SHAPER_LATER_TAPS]; ///< 1 / quanta of the tick that is to release each part
     uint32_t gap; ///< quanta until the next cell
 } hoisting_gantry_shaper_cell_t;
 
@@ -140,6 +139,9 @@ typedef struct {
     hoisting_gantry_real_t inverse; ///< 1 / quanta of this tick
     hoisting_gantry_real_t answered; ///< hoist speed answered last
     uint32_t quanta; ///< quanta of phase in this tick
+    hoisting_gantry_real_t weight[HOISTING_GANTRY_SHAPER_LATER_TAPS]; ///< weight of each later tap for a change now
+    hoisting_gantry_real_t foreseen[HOISTING_GANTRY_SHAPER_LATER_TAPS]; ///< the same of a change now
+    bool weighed; ///< both are for the rate and row of this tick
     uint32_t elapsed_quanta; ///< quanta of the tick before
     hoisting_gantry_real_t base; ///< command shaped last
     hoisting_gantry_real_t target; ///< target of the ramp
