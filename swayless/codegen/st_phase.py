@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swayless.codegen import phase_work
 from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, st_table
 from swayless.controller import hoist
 from swayless.controller.hoist_answers import answers, leaning_from
@@ -68,23 +69,14 @@ def phase_tables(settings: ShaperSettings, types: StTypes) -> list[Table]:
 
 
 def most_cells_a_tick(clock: PhaseClock) -> int:
-    """Bound the cells of the ring that a tap passes in a tick.
-
-    A tap passes a cell while less than the quanta of the tick lie ahead, and each cell adds the quanta of its
-    own tick: no fewer than on the longest rope. At least 2, as loops of one trip are not portable.
+    """Bound the cells that a tap passes in a tick; at least 2, as loops of one trip are not portable.
 
     Parameters
     ----------
     clock : PhaseClock
         The clock.
-
-    Examples
-    --------
-    >>> from swayless.controller.number import number_type
-    >>> most_cells_a_tick(PhaseClock(1e-7, (3000, 2000, 1499), 3.0, 1.0, number_type("double")))
-    3
     """
-    return max(2, -(-clock.most_quanta // clock.fewest_quanta))
+    return max(2, phase_work.most_cells_a_tick(clock))
 
 
 def _clock_constants(clock: PhaseClock) -> list[RealConstant]:
