@@ -160,7 +160,8 @@ def spaced_taps(
 def worst_truncated_residual(taps: SpacedTaps) -> float:
     """Largest residual vibration on any position that is held, in the linear model.
 
-    A spacing of D ticks stands for half periods of D up to D + 1 ticks, and any of them may be the true one.
+    A spacing of D ticks stands for half periods of D up to D + 1 ticks, and any of them may be the true one:
+    of the narrowest spacing they are the farthest off, and those of the others are among them.
 
     Parameters
     ----------
@@ -168,8 +169,7 @@ def worst_truncated_residual(taps: SpacedTaps) -> float:
         The taps.
     """
     damping_ratio = taps.guarantee.mode.damping_ratio
-    spacings = np.unique(taps.spacing.ticks)[:, np.newaxis]
-    half_turns = spacings / (spacings + _SHARES)
+    half_turns = taps.spacing.least / (taps.spacing.least + _SHARES)
     pole = complex(damping_ratio / math.sqrt(1.0 - damping_ratio**2), 1.0) * np.pi * half_turns
     order = np.arange(taps.amplitudes.size)
     vibration = np.abs(np.exp(pole[..., np.newaxis] * order) @ taps.amplitudes)

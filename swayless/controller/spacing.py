@@ -49,11 +49,7 @@ class Spacing:
             raise ControllerError("spacing: at least one piece, as many starts as spacings")
         if any(low >= high for low, high in pairwise(self.starts)):
             raise ControllerError("spacing: pieces must start at increasing positions")
-        if not 1 <= self.least <= self.most <= MOST_SPACING_TICKS:
-            raise ControllerError(
-                f"spacing of {self.least} to {self.most} ticks: allowed are 1 to {MOST_SPACING_TICKS}; "
-                "the tick is too coarse or too fine for the vibration"
-            )
+        check_spacings(self.least, self.most)
 
     def at(self, position: Any) -> int:
         """Spacing at a position.
@@ -75,6 +71,21 @@ class Spacing:
     def most(self) -> int:
         """Widest spacing."""
         return max(self.ticks)
+
+
+def check_spacings(least_ticks: float, most_ticks: float) -> None:
+    """Refuse spacings that are shorter than a tick or too long.
+
+    Raises
+    ------
+    ControllerError
+        If one is.
+    """
+    if not 1 <= least_ticks <= most_ticks < MOST_SPACING_TICKS + 1:
+        raise ControllerError(
+            f"spacing of {least_ticks:.6g} to {most_ticks:.6g} ticks: allowed are 1 to {MOST_SPACING_TICKS}; "
+            "the tick is too coarse or too fine for the vibration"
+        )
 
 
 def rope_spacing(
@@ -111,6 +122,7 @@ def rope_spacing(
     """
     damped = math.sqrt(1.0 - damping_ratio**2)
     ends = np.pi * np.sqrt(np.array(rope_length_m) / STANDARD_GRAVITY_M_S2) / damped / tick_s
+    check_spacings(*ends.tolist())
     ticks = np.arange(math.floor(ends[0]), math.floor(ends[1]) + 1)
     starts_m = STANDARD_GRAVITY_M_S2 * (ticks * (tick_s * damped / np.pi)) ** 2
     starts_m[0] = rope_length_m[0]
@@ -163,6 +175,8 @@ def sampled_spacing(
     if not hertz.min() > 0.0:
         raise ControllerError(f"frequency_hz = {float(hertz.min())!r}: must be > 0")
     per_hertz = 1.0 / (2.0 * math.sqrt(1.0 - damping_ratio**2) * tick_s)
+    with np.errstate(over="ignore"):
+        check_spacings(float(per_hertz / hertz.max()), float(per_hertz / hertz.min()))
     bounds = per_hertz / np.arange(math.floor(per_hertz / hertz.max()), per_hertz / hertz.min() + 1.0)[1:]
     rises = np.diff(hertz)
     rises[rises == 0.0] = np.nan

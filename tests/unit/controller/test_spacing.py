@@ -50,6 +50,11 @@ def test_the_spacing_of_an_arm_follows_frequencies_that_rise_and_fall():
         (lambda: Spacing((1.0, 1.0), (2, 3)), "increasing positions"),
         (lambda: Spacing((1.0,), (0,)), r"spacing of 0 to 0 ticks: allowed are 1 to 32768"),
         (lambda: rope_spacing((3.0, 9.0), 0.0, tick_s=5.0, number=DOUBLE), "too coarse or too fine"),
+        (lambda: rope_spacing((3.0, 9.0), 0.0, tick_s=1e-12, number=DOUBLE), "too coarse or too fine"),
+        (
+            lambda: sampled_spacing([0, 1], [1e-300, 1.0], 0.0, tick_s=0.02, number=DOUBLE),
+            "spacing of 25 to 2.5e.301 ticks: allowed are 1 to 32768",
+        ),
         (lambda: sampled_spacing([0, 0], [1, 2], 0.0, tick_s=0.1, number=DOUBLE), "increasing, as many"),
         (lambda: sampled_spacing([0, 1], [1, 0], 0.0, tick_s=0.1, number=DOUBLE), "frequency_hz = 0.0"),
     ],
