@@ -187,6 +187,9 @@ class DrivenRopes:
         ropes_m : tuple of two floats
             Shortest and longest, > 0.
         """
+        if ropes_m[0] == ropes_m[1]:
+            own = self.mode(ropes_m[0]).damping_ratio
+            return own, own
         lengths_m = np.geomspace(*ropes_m, _SAMPLES)
         ratio = self._clear_modes(lengths_m)[1]
         return self._extreme(lengths_m, ratio, -1.0), self._extreme(lengths_m, ratio, 1.0)

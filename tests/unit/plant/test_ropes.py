@@ -98,10 +98,11 @@ def test_a_frequency_far_beyond_the_ropes_is_refused_with_those_that_have_one():
     assert ropes.rope_length_m(ropes.modes(36.0)[0]) == pytest.approx(36.0, rel=1e-9)
 
 
-def test_one_rope_is_a_range_too():
-    ropes = DrivenRopes(STIFF, (6.0, 6.0))
-    assert ropes.frequency_range_hz((6.0, 6.0)) == (ropes.mode(6.0).frequency_hz,) * 2
-    assert ropes.damping_range((6.0, 6.0)) == (ropes.mode(6.0).damping_ratio,) * 2
+@pytest.mark.parametrize("rope_m", [6.0, 7.478685709313956])
+def test_one_rope_is_a_range_too(rope_m):
+    ropes = DrivenRopes(STIFF, (rope_m, rope_m))
+    assert ropes.frequency_range_hz((rope_m, rope_m)) == (ropes.mode(rope_m).frequency_hz,) * 2
+    assert ropes.damping_range((rope_m, rope_m)) == (ropes.mode(rope_m).damping_ratio,) * 2
 
 
 def test_ropes_beyond_the_range_count_while_the_swing_is_clear():
