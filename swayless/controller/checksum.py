@@ -34,8 +34,8 @@ MODULUS = BASE + 1
 FEWEST_DIGITS = 2
 """Digits of a whole number of 32 bits, and of a real at least: loops of one trip are not portable."""
 
-MOST_DIGITS = 7
-"""Digits of a real, at most: 112 bits, 53 of them for the smallest double. Nothing then leaves the type."""
+MOST_DIGITS = {"double": 12, "float": 7}
+"""Digits of a real, at most, by type: numbers of one table far apart in size, and nothing leaves the type."""
 
 
 class Checksum(NamedTuple):
@@ -123,7 +123,7 @@ def real_table(name: str, numbers: Sequence[Any], number: NumberType) -> Table:
     bits = math.frexp(max(sizes, default=0.0))[1]
     lowest = max((_lowest_bit(size) for size in sizes if size > 0.0), default=0)
     digits = max(-(-(bits + lowest) // 16), FEWEST_DIGITS)
-    if digits > MOST_DIGITS:
+    if digits > MOST_DIGITS[number.name]:
         raise ControllerError(f"table {name}: {min(sizes):g} and {max(sizes):g} are too far apart in size")
     return Table(name, tuple(numbers), number.scalar(2.0**bits), digits)
 

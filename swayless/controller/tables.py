@@ -12,6 +12,9 @@ from typing import Any
 
 from swayless.controller.checksum import Checksum, Table, checksum, real_table, whole_table
 from swayless.controller.diagnostics import DesignFacts
+from swayless.controller.hoist import stretches
+from swayless.controller.hoist_answers import answers
+from swayless.controller.hoist_int32 import IntegerHoist
 from swayless.controller.output_units import residual_bounds
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.spaced_taps import SpacedTaps
@@ -104,6 +107,23 @@ def _of_ropes(settings: ShaperSettings) -> Iterator[Table]:
         yield whole_table("spacing ticks", taps.spacing.ticks)
     if settings.clock is not None:
         yield whole_table("tick quanta", settings.clock.nodes)
+        yield from _of_hoist(settings)
+
+
+def _of_hoist(settings: ShaperSettings) -> Iterator[Table]:
+    """Give what the answer to a hoist takes for each tap of each row."""
+    if settings.number.is_integer:
+        whole = IntegerHoist(settings, max_scaled=1)
+        stretched, answered = whole.stretch, whole.answers
+    else:
+        scalar = settings.number.scalar
+        stretched = tuple(tuple(scalar(each) for each in row) for row in stretches(settings))
+        answered = tuple(
+            tuple((scalar(e), scalar(n)) for e, n in zip(*a, strict=True)) for a in answers(settings)
+        )
+    yield _table("stretches", chain.from_iterable(stretched), settings)
+    for place, name in enumerate(("answers", "leans")):
+        yield _table(name, (pair[place] for pair in chain.from_iterable(answered)), settings)
 
 
 def _of_diagnostics(settings: ShaperSettings) -> Iterator[Table]:
