@@ -49,6 +49,7 @@ class OperatorOptions:
         Distance inputs: way that is kept free before each end, >= 0.
     contactor_speeds_m_s : tuple of float or None
         The one or two speeds that the drive knows besides 0, rising, up to the maximum, which is the last.
+        All rows then need amplitudes +1, -1, ..., +1 on whole ticks, and no command may be ramped.
     drive_feedback : bool
         Inputs that say whether the drive is ready, and its speed.
     speed_limit : bool
