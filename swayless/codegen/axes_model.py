@@ -11,16 +11,19 @@ from functools import cached_property
 
 from swayless.codegen.c_model import CModel
 from swayless.codegen.c_types import CTypes
-from swayless.codegen.interface import Pin, input_pins, output_pins
+from swayless.codegen.interface import input_pins, output_pins
 from swayless.codegen.names import check_st_names
+from swayless.codegen.pin import Pin
 from swayless.codegen.provenance import Provenance
 from swayless.codegen.render import GeneratedFile, render
 from swayless.codegen.st_types import StTypes
 from swayless.controller.settings import ShaperSettings
 from swayless.errors import CodegenError
 
-SHARED_PINS = frozenset({"enable", "emergency_stop", "quick_stop", "selector", "step_size"})
-"""Inputs of which a crane has one for all axes, besides those of the measured rope."""
+SHARED_FIELDS = frozenset({"enable", "emergency_stop", "quick_stop", "selector", "step_size"}) | {
+    *("rope_length", "hoist_speed", "rope_length_valid", "rope_offset"),
+}
+"""Inputs of which a crane has one for all axes: its buttons, its knob and its rope."""
 
 
 @dataclass(frozen=True)
@@ -74,11 +77,7 @@ class AxisBlock:
 
     def is_shared(self, pin: Pin) -> bool:
         """Whether a crane has one input for all axes."""
-        rope = self.settings.rope
-        measured = (
-            () if rope is None else (rope.measured.st_name, rope.measured.st_speed, rope.measured.st_valid)
-        )
-        return pin.c_name in SHARED_PINS or pin.st_name in measured
+        return pin.field in SHARED_FIELDS
 
 
 @dataclass(frozen=True)
@@ -118,7 +117,7 @@ class AxesModel:
     @property
     def shared_pins(self) -> tuple[Pin, ...]:
         """Inputs that axes have in common, each once."""
-        found = {pin.c_name: pin for block in self.blocks for pin in block.shared_pins}
+        found = {pin.field: pin for block in self.blocks for pin in block.shared_pins}
         return tuple(found.values())
 
     @property

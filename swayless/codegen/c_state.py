@@ -10,7 +10,8 @@ from swayless.codegen.c_spacing import spacing_flags, spacing_members, spacing_r
 from swayless.codegen.c_types import CField, CTypes
 from swayless.codegen.clock_names import clock_names
 from swayless.codegen.features import Features
-from swayless.codegen.interface import Pin, input_pins, output_pins
+from swayless.codegen.interface import input_pins, output_pins
+from swayless.codegen.pin import Pin
 from swayless.controller.settings import ShaperSettings
 
 SIZES_BYTES = {

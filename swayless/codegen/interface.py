@@ -2,45 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from swayless.codegen.operator_pins import diagnostic_pins, feedback_pins, operator_pins, tuning_pins
+from swayless.codegen.pin import Pin, pin
 from swayless.controller.number import NumberType
 from swayless.controller.rope import RopeSettings
 from swayless.controller.settings import ShaperSettings
-
-
-@dataclass(frozen=True)
-class Pin:
-    """One input or output.
-
-    Parameters
-    ----------
-    c_name, st_name : str
-        Name in each language; Structured Text drops the unit suffix.
-    kind : str
-        ``"bool"``, ``"real"``, ``"row"`` or ``"word"``.
-    doc : str
-        Meaning, range and what happens on bad input.
-    unit : str
-        Unit in float types.
-    integer_unit : str
-        Unit in int32.
-    st_initial : str
-        Initial value of a Structured Text input that is not wired.
-    """
-
-    c_name: str
-    st_name: str
-    kind: str
-    doc: str
-    unit: str = ""
-    integer_unit: str = ""
-    st_initial: str = ""
-
-    def text(self, *, is_integer: bool) -> str:
-        """Comment with the unit in front."""
-        unit = self.integer_unit if is_integer else self.unit
-        return f"[{unit}] {self.doc}" if unit else self.doc
 
 
 def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
@@ -55,20 +21,24 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     by_rope = settings.bank.by_rope is not None
     choice = "1 the row of the rope" if by_rope else f"1 to {len(settings.bank.rows)} rows"
     pins = (
-        Pin("enable", "Enable", "bool", "false: row 0 is wanted, ramped and unshaped", st_initial="TRUE"),
-        Pin(
+        pin(
+            "enable",
+            "bool",
+            "false: row 0 is wanted, ramped and unshaped",
+            st_initial="TRUE",
+        ),
+        pin(
             "emergency_stop",
-            "EmergencyStop",
             "bool",
             "reference 0 at once; latched until the command is 0",
         ),
-        Pin(
+        pin(
             "quick_stop",
-            "QuickStop",
             "bool",
             "unshaped stop on its own ramp; latched until at rest and the command is 0",
         ),
         Pin(
+            "command",
             "command",
             "Command",
             "real",
@@ -76,14 +46,15 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
             units,
             f"counts ({units})" if units != "counts" else "counts",
         ),
-        Pin(
+        pin(
             "selector",
-            "Selector",
             "row",
             f"0 unshaped, {choice}; anything else keeps the last valid one",
         ),
     )
-    return pins if settings.rope is None else (*pins, *_measured_pins(settings.rope, settings.number))
+    if settings.rope is not None:
+        pins += _measured_pins(settings.rope, settings.number)
+    return pins + operator_pins(settings) + feedback_pins(settings) + tuning_pins(settings)
 
 
 def _measured_pins(rope: RopeSettings, number: NumberType) -> tuple[Pin, ...]:
@@ -91,6 +62,7 @@ def _measured_pins(rope: RopeSettings, number: NumberType) -> tuple[Pin, ...]:
     measured, whole = rope.measured, number.is_integer
     return (
         Pin(
+            "rope_length",
             measured.c_value(is_integer=whole),
             measured.st_name,
             "real",
@@ -99,6 +71,7 @@ def _measured_pins(rope: RopeSettings, number: NumberType) -> tuple[Pin, ...]:
             measured.value_unit(is_integer=True),
         ),
         Pin(
+            "hoist_speed",
             measured.c_speed(is_integer=whole),
             measured.st_speed,
             "real",
@@ -107,6 +80,7 @@ def _measured_pins(rope: RopeSettings, number: NumberType) -> tuple[Pin, ...]:
             measured.speed_unit(is_integer=True),
         ),
         Pin(
+            "rope_length_valid",
             measured.c_valid,
             measured.st_valid,
             "bool",
@@ -125,9 +99,13 @@ def output_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
         For units.
     """
     units = settings.limits.units
-    return (
-        Pin("reference", "Reference", "real", "speed for the drive", units, "counts"),
+    bound = "residual vibration that the row guarantees; all of it when unshaped"
+    if settings.diagnostics.rope_bounds is not None:
+        bound = "residual vibration that the row leaves at most on the rope of now; all of it when unshaped"
+    pins = (
+        Pin("reference", "reference", "Reference", "real", "speed for the drive", units, "counts"),
         Pin(
+            "stop_distance",
             "stop_distance",
             "StopDistance",
             "real",
@@ -135,19 +113,29 @@ def output_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
             "m",
             "mm",
         ),
-        Pin("stop_time_s", "StopTime", "real", "time until the reference is 0 then", "s", "s, rounded up"),
-        Pin("stop_time_ticks", "StopTimeTicks", "word", "the same time", "ticks", "ticks"),
         Pin(
+            "stop_time_s",
+            "stop_time_s",
+            "StopTime",
+            "real",
+            "time until the reference is 0 then",
+            "s",
+            "s, rounded up",
+        ),
+        Pin("stop_time_ticks", "stop_time_ticks", "StopTimeTicks", "word", "the same time", "ticks", "ticks"),
+        Pin(
+            "residual_bound",
             "residual_bound",
             "ResidualBound",
             "real",
-            "residual vibration that the row guarantees; all of it when unshaped",
+            bound,
             "ratio",
             "millionths",
         ),
-        Pin("row", "Row", "row", "row in use"),
-        Pin("settled", "Settled", "bool", "nothing is pending: a row may change"),
-        Pin("active", "Active", "bool", "the command is being shaped"),
-        Pin("error", "Error", "bool", "an input cannot be right; the status says which"),
-        Pin("status", "Status", "word", "one bit for each reason, see above"),
+        pin("row", "row", "row in use"),
+        pin("settled", "bool", "nothing is pending: a row may change"),
+        pin("active", "bool", "the command is being shaped"),
+        pin("error", "bool", "an input cannot be right; the status says which"),
+        pin("status", "word", "one bit for each reason, see above"),
     )
+    return pins + diagnostic_pins(settings)

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from swayless.codegen.features import Features, features_of
-from swayless.codegen.interface import Pin, input_pins, output_pins
+from swayless.codegen.interface import input_pins, output_pins
 from swayless.codegen.names import check_st_names
+from swayless.codegen.pin import Pin
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
 from swayless.codegen.st_parts import BlockLaw, law_of
 from swayless.codegen.st_phase import most_cells_a_tick

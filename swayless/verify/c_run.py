@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swayless.codegen.render import GeneratedFile
-from swayless.controller.number import NumberType
+from swayless.controller.settings import ShaperSettings
 from swayless.errors import VerificationError
 from swayless.verify.records import output_dtype
 from swayless.verify.toolchain import Compiler
@@ -32,14 +32,18 @@ class CompiledBlock:
         The program that feeds the block.
     compiler : Compiler
         What compiles them.
-    number : NumberType
-        Number type of the block.
+    settings : ShaperSettings
+        The block, for the layout of its records.
     """
 
     def __init__(
-        self, files: Sequence[GeneratedFile], harness: GeneratedFile, compiler: Compiler, number: NumberType
+        self,
+        files: Sequence[GeneratedFile],
+        harness: GeneratedFile,
+        compiler: Compiler,
+        settings: ShaperSettings,
     ) -> None:
-        self._files, self._harness, self._compiler, self._number = files, harness, compiler, number
+        self._files, self._harness, self._compiler, self._settings = files, harness, compiler, settings
         self._folder = tempfile.TemporaryDirectory(prefix="swayless-", ignore_cleanup_errors=True)
         self._program = Path(self._folder.name) / "block.exe"
 
@@ -95,4 +99,4 @@ class CompiledBlock:
             raise VerificationError(f"the compiled block did not end within {RUN_TIMEOUT_S:.0f} s") from error
         if done.returncode != 0:
             raise VerificationError(f"the compiled block ended with code {done.returncode}")
-        return np.frombuffer(done.stdout, dtype=output_dtype(self._number))
+        return np.frombuffer(done.stdout, dtype=output_dtype(self._settings))

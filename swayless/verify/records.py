@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from swayless.controller.number import NumberType
+from swayless.codegen.interface import input_pins, output_pins
+from swayless.codegen.pin import Pin
 from swayless.controller.settings import ShaperSettings
 
 COMMAND_TYPES: dict[str, Any] = {"double": np.float64, "float": np.float32, "int32": np.int32}
@@ -14,35 +15,20 @@ COMMAND_TYPES: dict[str, Any] = {"double": np.float64, "float": np.float32, "int
 
 
 def input_dtype(settings: ShaperSettings) -> np.dtype[np.void]:
-    """Record type of the inputs of a block, laid out as the C structure is."""
-    real = COMMAND_TYPES[settings.number.name]
-    fields = [
-        ("enable", np.bool_),
-        ("emergency_stop", np.bool_),
-        ("quick_stop", np.bool_),
-        ("command", real),
-        ("selector", np.uint8),
-    ]
-    if settings.rope is not None:
-        fields += [("rope_length", real), ("hoist_speed", real), ("rope_length_valid", np.bool_)]
-    return np.dtype(fields, align=True)
+    """Record type of the inputs of a block, laid out as the C structure is, by the reference's names."""
+    return _dtype(input_pins(settings), settings)
 
 
-def output_dtype(number: NumberType) -> np.dtype[np.void]:
-    """Record type of the outputs, laid out as the C structure is."""
-    real = COMMAND_TYPES[number.name]
-    return np.dtype(
-        [
-            ("reference", real),
-            ("stop_distance", real),
-            ("stop_time_s", real),
-            ("stop_time_ticks", np.uint32),
-            ("residual_bound", real),
-            ("row", np.uint8),
-            ("settled", np.bool_),
-            ("active", np.bool_),
-            ("error", np.bool_),
-            ("status", np.uint32),
-        ],
-        align=True,
-    )
+def output_dtype(settings: ShaperSettings) -> np.dtype[np.void]:
+    """Record type of the outputs, laid out as the C structure is; fields are those of the reference."""
+    return _dtype(output_pins(settings), settings)
+
+
+def _dtype(pins: tuple[Pin, ...], settings: ShaperSettings) -> np.dtype[np.void]:
+    kinds = {
+        "bool": np.bool_,
+        "real": COMMAND_TYPES[settings.number.name],
+        "row": np.uint8,
+        "word": np.uint32,
+    }
+    return np.dtype([(pin.field, kinds[pin.kind]) for pin in pins], align=True)

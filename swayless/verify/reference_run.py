@@ -27,7 +27,8 @@ def run_reference(settings: ShaperSettings, inputs: NDArray[np.void]) -> NDArray
     """
     shaper = CommandShaper(settings)
     scalar = settings.number.scalar
-    outputs = np.empty(inputs.size, dtype=output_dtype(settings.number))
+    names = output_dtype(settings).names or ()
+    outputs = np.empty(inputs.size, dtype=output_dtype(settings))
     reals = {name for name in inputs.dtype.names or () if inputs.dtype[name].kind in "fi"}
     columns = {
         name: map(scalar, inputs[name].tolist()) if name in reals else inputs[name].tolist()
@@ -35,16 +36,5 @@ def run_reference(settings: ShaperSettings, inputs: NDArray[np.void]) -> NDArray
     }
     for tick, values in enumerate(zip(*columns.values(), strict=True)):
         out = shaper.step(ShaperInput(**dict(zip(columns, values, strict=True))))
-        outputs[tick] = (
-            out.reference,
-            out.stop_distance,
-            out.stop_time_s,
-            out.stop_time_ticks,
-            out.residual_bound,
-            out.row,
-            out.settled,
-            out.active,
-            out.error,
-            out.status,
-        )
+        outputs[tick] = tuple(getattr(out, name) for name in names)
     return outputs

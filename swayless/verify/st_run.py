@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from swayless.controller.number import NumberType
+from swayless.controller.settings import ShaperSettings
 from swayless.errors import VerificationError
 from swayless.verify.records import output_dtype
 from swayless.verify.structured_text import load
@@ -20,8 +20,8 @@ class EvaluatedBlock:
     ----------
     text : str
         The generated file.
-    number : NumberType
-        ``double`` for LREAL, ``float`` for REAL.
+    settings : ShaperSettings
+        The block, for the fields of its records.
 
     Raises
     ------
@@ -31,9 +31,9 @@ class EvaluatedBlock:
         If the text is not portable Structured Text.
     """
 
-    def __init__(self, text: str, number: NumberType) -> None:
+    def __init__(self, text: str, settings: ShaperSettings) -> None:
         self._program = load(text)
-        self._number = number
+        self._settings = settings
 
     def run(self, inputs: NDArray[np.void]) -> NDArray[np.void]:
         """Run the block from power-on over a stimulus; arrays as in `CompiledBlock.run`.
@@ -44,7 +44,7 @@ class EvaluatedBlock:
             If the block has other pins than the records have fields.
         """
         block = self._program.instantiate()
-        outputs = np.zeros(inputs.size, dtype=output_dtype(self._number))
+        outputs = np.zeros(inputs.size, dtype=output_dtype(self._settings))
         pins = _in_order(self._program.inputs, inputs.dtype)
         results = _in_order(self._program.outputs, outputs.dtype)
         columns = [inputs[name].tolist() for name in inputs.dtype.names or ()]

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from swayless.codegen.provenance import Provenance
 from swayless.codegen.render import GeneratedFile
 from swayless.codegen.targets import c_harness
-from swayless.controller.number import NumberType
 from swayless.controller.settings import ShaperSettings
 from swayless.errors import VerificationError
 from swayless.verify.c_run import CompiledBlock
@@ -101,11 +100,11 @@ def verify_block(
         runs: list[tuple[str, int | None, Callable[[NDArray[np.void]], NDArray[np.void]]]] = []
         if c_files and compiler is not None:
             on_start(f"compiling with {compiler.name}")
-            block = CompiledBlock(c_files, c_harness(settings, origin), compiler, number)
+            block = CompiledBlock(c_files, c_harness(settings, origin), compiler, settings)
             runs.append((f"C by {compiler.name}, {number.name}", None, stack.enter_context(block).run))
         for file in st_files:
             kind = "LREAL" if number.name == "double" else "REAL"
-            runs.append((f"ST by evaluator, {kind}", ST_TICKS, _evaluated(file, number).run))
+            runs.append((f"ST by evaluator, {kind}", ST_TICKS, _evaluated(file, settings).run))
         for stimulus in _stimuli(settings, soak_ticks if c_files else 0):
             on_start(stimulus.name)
             expected = run_reference(settings, stimulus.inputs)
@@ -114,10 +113,10 @@ def verify_block(
                 yield Verdict(code, stimulus.name, inputs.size, compare(expected[:most_ticks], run(inputs)))
 
 
-def _evaluated(file: GeneratedFile, number: NumberType) -> EvaluatedBlock:
+def _evaluated(file: GeneratedFile, settings: ShaperSettings) -> EvaluatedBlock:
     """Load a block; what is wrong with its text is said with the name of its file."""
     try:
-        return EvaluatedBlock(file.text, number)
+        return EvaluatedBlock(file.text, settings)
     except VerificationError as error:
         raise VerificationError(f"{file.path}: {error}") from error
 

@@ -98,7 +98,7 @@ def verify_st_wiring(axes: Sequence[WiredAxis], wiring: Sequence[GeneratedFile])
     blocks = [axis.block for axis in axes]
     inputs = _inputs(blocks)
     columns = _columns(blocks, inputs)
-    found = [np.zeros(inputs[0].size, output_dtype(block.settings.number)) for block in blocks]
+    found = [np.zeros(inputs[0].size, output_dtype(block.settings)) for block in blocks]
     for tick in range(inputs[0].size):
         outputs = outer.step({name: column[tick] for name, column in columns.items()})
         for block, out in zip(blocks, found, strict=True):
@@ -113,9 +113,8 @@ def _inputs(blocks: Sequence[AxisBlock]) -> list[NDArray[np.void]]:
     inputs = [_all_moving(block, seed) for seed, block in enumerate(blocks, start=1)]
     shared: dict[str, NDArray[np.generic]] = {}
     for block, own in zip(blocks, inputs, strict=True):
-        for pin, field in zip(input_pins(block.settings), own.dtype.names or (), strict=True):
-            if block.is_shared(pin):
-                own[field] = shared.setdefault(pin.c_name, own[field])
+        for pin in block.shared_pins:
+            own[pin.field] = shared.setdefault(pin.field, own[pin.field])
     return inputs
 
 
@@ -131,7 +130,7 @@ def _columns(blocks: Sequence[AxisBlock], inputs: Sequence[NDArray[np.void]]) ->
     """Give the inputs of the outer block by the name of the pin."""
     columns = {}
     for block, own in zip(blocks, inputs, strict=True):
-        for pin, field in zip(input_pins(block.settings), own.dtype.names or (), strict=True):
+        for pin in input_pins(block.settings):
             prefix = "" if block.is_shared(pin) else block.st_axis
-            columns[prefix + pin.st_name] = own[field].tolist()
+            columns[prefix + pin.st_name] = own[pin.field].tolist()
     return columns

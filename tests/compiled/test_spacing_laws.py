@@ -38,7 +38,7 @@ def compiled(settings, change=("", "")):
         GeneratedFile(source.path, source.text.replace(old, new, 1) if old else source.text),
         example,
     )
-    with CompiledBlock(made, c_harness(settings, ORIGIN), find_compiler(), settings.number) as block:
+    with CompiledBlock(made, c_harness(settings, ORIGIN), find_compiler(), settings) as block:
         yield block
 
 

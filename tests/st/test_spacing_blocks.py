@@ -133,7 +133,7 @@ def test_a_wrong_term_of_the_law_is_found_within_4000_ticks(known_runs, law, rig
     settings, inputs, expected = known_runs[law]
     text = text_of(settings)
     assert right in text
-    block = EvaluatedBlock(text.replace(right, wrong), settings.number)
+    block = EvaluatedBlock(text.replace(right, wrong), settings)
     # Most are found at once.
     assert any(not compare(expected[:n], block.run(inputs[:n])).is_equal for n in (400, inputs.size))
 
@@ -161,7 +161,7 @@ def test_a_block_that_is_initialized_again_remembers_nothing(law):
     )
     again = np.concatenate([inputs[:1000], inputs[1000:]])
     again["selector"][1000] = 77
-    restarted = EvaluatedBlock(text, settings.number).run(again)[1000:]
+    restarted = EvaluatedBlock(text, settings).run(again)[1000:]
     assert compare(run_reference(settings, again[1000:]), restarted).is_equal
 
 
