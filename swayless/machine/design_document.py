@@ -43,6 +43,7 @@ from swayless.machine.design_members import (
     word,
 )
 from swayless.machine.following_row import SPACED_LAWS
+from swayless.machine.law_record import law_disagreements
 from swayless.machine.record import Record, one, one_of, optional, several, where_needed
 from swayless.machine.robust_row import AMPLITUDE_RULES
 from swayless.machine.spacing_record import PositionRecord, SpacingRecord
@@ -301,8 +302,7 @@ class DesignFile(Record):
         """Require what no record sees by itself: between shapers, tick, drive and bank."""
         if self.bank is not None and len(self.bank.labels) != len(self.shapers):
             yield "bank.labels", f"has {len(self.bank.labels)} values, there are {len(self.shapers)} shapers"
-        yield from self._phase_clock()
-        yield from self._spacing()
+        yield from law_disagreements(self)
         yield from self._speed_loop()
         if self.number == "int32" and self.drive.counts_per_m_s is None:
             yield "drive.counts_per_m_s", 'is null, and number = "int32" computes in counts'
@@ -314,51 +314,12 @@ class DesignFile(Record):
             yield from _law(f"shapers[{index}].taps", shaper.taps, self.law)
             yield from _whole(f"shapers[{index}].taps", shaper.taps, contactor=self.drive.contactor)
 
-    def _phase_clock(self) -> Iterator[tuple[str, str]]:
-        """Require what the phase clock needs exactly where it is the law."""
-        needs: dict[str, object] = {
-            "clock": self.clock,
-            "tick_s": self.tick_s,
-            "plant.rope_length_m": self.plant.rope_length_m,
-            "plant.hoist_speed_m_s": self.plant.hoist_speed_m_s,
-        }
-        if self.law == "phase":
-            for key, value in needs.items():
-                if value is None:
-                    yield key, 'is null, and law = "phase" needs it'
-        elif self.clock is not None:
-            yield "clock", f'must be null: law = "{self.law}"'
-
     def _speed_loop(self) -> Iterator[tuple[str, str]]:
         """Require a crane with ropes, and the law that holds their modes, where the load is felt."""
         if self.drive.speed_loop is None:
             return
         if self.plant.kind != "crane" or self.plant.rope_length_m is None or self.law != "fixed":
             yield "drive.speed_loop", 'needs plant.kind = "crane", plant.rope_length_m and law = "fixed"'
-
-    def _spacing(self) -> Iterator[tuple[str, str]]:
-        """Require what a spaced law needs exactly where it is the law."""
-        if self.law not in SPACED_LAWS:
-            if self.spacing is not None:
-                yield "spacing", f'must not stand there: law = "{self.law}"'
-            return
-        plant = self.plant
-        needs: dict[str, object] = {"spacing": self.spacing, "tick_s": self.tick_s}
-        if plant.position is not None:
-            needs["plant.position.speed_per_s"] = plant.position.speed_per_s
-        else:
-            needs["plant.rope_length_m"] = plant.rope_length_m
-            needs["plant.hoist_speed_m_s"] = plant.hoist_speed_m_s
-        for key, value in needs.items():
-            if value is None:
-                yield key, f'is null, and law = "{self.law}" needs it'
-        for index, shaper in enumerate(self.shapers):
-            if shaper.mode.damping_ratio != plant.damping_ratio:
-                key, own = f"shapers[{index}].mode.damping_ratio", shaper.mode.damping_ratio
-                yield (
-                    key,
-                    f"{own!r} is not plant.damping_ratio, {plant.damping_ratio!r}",
-                )
 
     def _unit_s(self, taps: AnyTapsRecord | None) -> float | None:
         """Time that delays of taps are counted in: a tick, or the widest spacing."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -154,6 +155,12 @@ def typed_spacing(spacing: Spacing, number: NumberType) -> Spacing:
     starts: tuple[Any, ...] = tuple(map(number.scalar, spacing.starts))
     if number.is_integer:
         starts = tuple(math.ceil(as_written(start) * MM_PER_M) for start in spacing.starts)
+    for place, (start, after) in zip(spacing.starts, pairwise(starts), strict=False):
+        if start == after:
+            raise ControllerError(
+                f"number = {number.name!r}: the spacing changes twice between {place:.6g} and the next place "
+                f"that {number.name} has; a coarser tick, or number = 'double', does"
+            )
     return Spacing(starts, spacing.ticks)
 
 

@@ -103,6 +103,13 @@ def test_damped_ei_has_impulses_elsewhere_and_is_refused(arm):
         arm(('"zvd"', '"ei"'))
 
 
+def test_spacings_that_change_within_a_whole_millimetre_are_refused_in_int32(arm):
+    """From 4.4 to 5.6 Hz a 100 us tick has 243 spacings: more than 200 mrad."""
+    places = ('["-30 deg", "0 deg", "45 deg"]', "[0, 0.1, 0.2]")
+    with pytest.raises(DesignError, match=r"number = 'int32': the spacing changes twice between 0\.0"):
+        arm(places, ('"40 deg/s"', "1.0"), COUNTS, ('tick = "5 ms"', 'tick = "100 us"\nnumber = "int32"'))
+
+
 def test_a_half_period_below_a_tick_is_refused(arm):
     with pytest.raises(DesignError, match="the tick is too coarse or too fine"):
         arm(('"5 ms"', '"200 ms"'))
@@ -166,6 +173,11 @@ def test_a_spacing_that_is_not_that_of_the_positions_does_not_run(arm, tmp_path)
         ("plant.frequency_hz", [4.4, 5.5], "plant.frequency_hz: is not the range of position.frequency_hz"),
         ("plant.kind", "mode", 'plant.position: is not null, and kind = "mode"'),
         ("plant.damping_ratio", 0.02, "shapers[0].mode.damping_ratio: 0.01 is not plant.damping_ratio"),
+        (
+            "shapers.0.mode.frequency_hz",
+            4.5,
+            "shapers[0].mode.frequency_hz: 4.5 is not plant.freq",
+        ),
         ("spacing.ticks", [17], "spacing.ticks: has 1 values, starts has"),
         ("spacing", None, "spacing = null: must be an object"),
         ("shapers.0.taps.delays_spacings", [0, 1, 3], "must be 0, 1, 2 and so on"),
