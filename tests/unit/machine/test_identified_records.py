@@ -1,0 +1,185 @@
+"""Records as people have them: read, or refused with the line that is wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from swayless.errors import FileError
+from swayless.machine.identified_record import Reading, read_peaks, read_swings
+from swayless.machine.identified_table import load_table
+from swayless.plant.identification import Quantity
+
+TIMES = np.round(np.linspace(0.0, 4.75, 20), 2)
+VALUES = np.round(np.cos(TIMES), 3)
+ROWS = "".join(f"{t},{v}\n" for t, v in zip(TIMES, VALUES, strict=True))
+SEMICOLONS = "decimal commas need semicolons between the columns"
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Read one record from a text."""
+
+    def read(text, **reading):
+        path = tmp_path / "swing.csv"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read_swings(load_table(path), Reading(**reading))
+
+    return read
+
+
+def refusal(read, text, **reading):
+    with pytest.raises(FileError) as caught:
+        read(text, **reading)
+    return [problem.partition("swing.csv: ")[2] for problem in caught.value.problems]
+
+
+@settings(derandomize=True, deadline=None, max_examples=60)
+@given(
+    separator=st.sampled_from([",", ";", "\t", " ", " ; ", ", "]),
+    comma=st.booleans(),
+    head=st.sampled_from(
+        [
+            "",
+            "time [s]{0}angle [rad]\n",
+            "t{0}phi\n",
+            "# a remark\n\ntime_s{0}angle_rad\n",
+            "t{0}x\ns{0}rad\n",
+        ]
+    ),
+    end=st.sampled_from(["\n", "\r\n", "\r"]),
+    mark=st.sampled_from([b"", b"\xef\xbb\xbf"]),
+    quoted=st.booleans(),
+    values=st.lists(st.floats(-1e6, 1e6, allow_subnormal=False), min_size=8, max_size=12),
+)
+def test_every_dialect_gives_the_same_numbers(
+    tmp_path_factory, separator, comma, head, end, mark, quoted, values
+):
+    times = 0.1 * np.arange(len(values))
+    decimal = "," if comma and separator.strip() != "," else "."
+    quote = '"' if quoted and separator.strip() else ""
+
+    def cell(number):
+        return f"{quote}{number!r}{quote}".replace(".", decimal)
+
+    rows = "".join(f"{cell(float(t))}{separator}{cell(v)}\n" for t, v in zip(times, values, strict=True))
+    path = tmp_path_factory.mktemp("dialect") / "swing.csv"
+    path.write_bytes(mark + (head.format(separator) + rows).replace("\n", end).encode())
+    (found,) = read_swings(load_table(path), Reading())
+    np.testing.assert_array_equal(found.record.time_s, times)
+    np.testing.assert_array_equal(found.record.value, values)
+
+
+@pytest.mark.parametrize(
+    ("head", "quantity", "size"),
+    [
+        ("time [s],angle [deg]", Quantity.angle, np.pi / 180.0),
+        ("time (ms),sway (mm)", Quantity.position, 1e-3),
+        ("t_s,accel_m_s2", Quantity.acceleration, 1.0),
+        ("Zeit in s,Winkel in rad", Quantity.angle, 1.0),
+        ("time,load / ft", Quantity.position, 0.3048),
+        ("time,sensor [V]", Quantity.value, 1.0),
+        ("time,a [g]", Quantity.acceleration, 9.80665),
+        ("time,x [m/s²]", Quantity.acceleration, 1.0),
+        ("time,winkel [°]", Quantity.angle, np.pi / 180.0),
+    ],
+)
+def test_heads_say_what_was_measured(read, head, quantity, size):
+    (found,) = read(f"{head}\n{ROWS}")
+    assert found.record.quantity is quantity
+    np.testing.assert_allclose(found.record.value, VALUES * size, rtol=1e-15)
+    assert found.record.time_s[-1] == pytest.approx(0.00475 if "ms" in head else 4.75)
+
+
+def test_columns_are_found_by_head_or_number(read):
+    text = "n,time_s,left_rad,right_rad\n" + "".join(
+        f"{k},{t},{v},{-v}\n" for k, (t, v) in enumerate(zip(TIMES, VALUES, strict=True))
+    )
+    for column in ("right_rad", "RIGHT", "4"):
+        np.testing.assert_array_equal(read(text, time="2", column=column)[0].record.value, -VALUES)
+    assert refusal(read, text, time="2") == [
+        'which one is the swing? give --column: "n", "left_rad", "right_rad"'
+    ]
+    assert refusal(read, text, column="5") == [
+        '--column = "5": no such column; known: "n", "time_s", "left_rad", "right_rad", or 1 to 4'
+    ]
+
+
+def test_a_unit_given_replaces_that_of_the_head(read):
+    (found,) = read(f"time,x\n{ROWS}", unit="deg")
+    assert found.record.quantity is Quantity.angle
+    assert refusal(read, ROWS, unit="furlong")[0].startswith(
+        '--unit = "furlong": unknown unit; known: rad, mrad, deg'
+    )
+
+
+def test_one_column_needs_a_rate(read):
+    column = "".join(f"{v}\n" for v in VALUES)
+    assert refusal(read, column) == ["line 1: one column: give --rate, or a file with a column of times"]
+    (found,) = read(column, rate_hz=4.0)
+    np.testing.assert_allclose(found.record.time_s, TIMES)
+
+
+@pytest.mark.parametrize("missing", ["", "NaN", "nan", "N/A", "-"])
+def test_missing_values_are_left_out_and_counted(read, missing):
+    (found,) = read(f"time,x\n{ROWS}5.0,{missing}\n5.25,0.5\n")
+    assert (found.missing, found.record.time_s.size) == (1, 21)
+
+
+def test_a_part_can_be_read(read):
+    (found,) = read(ROWS, start_s=1.0, end_s=4.0)
+    assert (found.record.time_s[0], found.record.time_s[-1]) == (1.0, 4.0)
+
+
+def test_a_rope_column_makes_a_record_of_each_rope(read):
+    text = "t,rope_length_ft,x\n" + "".join(f"{k},{10 if k < 12 else 20},{np.cos(k)}\n" for k in range(30))
+    first, second = read(text, rope_column="rope_length")
+    assert (first.rope_length_m, second.rope_length_m) == (pytest.approx(3.048), pytest.approx(6.096))
+    assert (first.record.time_s.size, second.record.time_s.size) == (12, 18)
+    assert (
+        refusal(read, text.replace(",20,", ",0,"), rope_column="2")[0]
+        == "line 14: rope length = 0: must be > 0"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("", "is empty: a record has a line for each sample, with a time and a value"),
+        ("# only a remark\n\n", "is empty: a record has a line for each sample, with a time and a value"),
+        ("time,x\n", "line 1: has no numbers: a record has a line for each sample"),
+        (f"time,x\n{ROWS}5.0,high\n", 'line 22: "high" is not a number'),
+        (f"time,x\n{ROWS}5.0,1_000\n", 'line 22: "1_000" is not a number'),
+        (f'time,x\n{ROWS}"5.0,1\n5.25,1\n', "line 22: has 1 cells, where there are 2 columns"),
+        (f"time,x\n{ROWS}5.0,1,2\n", "line 22: has 3 cells, where there are 2 columns"),
+        ("t,x\n0,0,1,5\n", f"line 2: has 4 cells, where there are 2 columns; {SEMICOLONS}"),
+        (f"time,x\n{ROWS}4.75,0.1\n", "line 22: time = 4.75 s does not come after 4.75 s"),
+        (f"time,x\n{ROWS}1.0,0.1\n", "line 22: time = 1 s does not come after 4.75 s"),
+        (f"time,x\n{ROWS},0.1\n", "line 22: the time is missing or infinite"),
+        (f"time,x\n{ROWS}5.0,inf\n", "line 22: value is infinite"),
+        ("time,x\n0,1\n1,2\n", "lines 2 to 3: 2 samples: must be at least 8"),
+        (b"time,x\n0,\xb0\n", "is not UTF-8 text: byte 0xb0 in line 2"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_read_is_refused_with_its_line(read, text, problem):
+    assert refusal(read, text) == [problem]
+
+
+def test_all_problems_are_said_at_once_and_many_are_counted(read):
+    problems = refusal(read, ROWS + "x,y\n" * 8)
+    assert len(problems) == 11
+    assert problems[-1] == "and 6 more lines like these"
+
+
+def test_peaks_are_read_over_times_or_swings(tmp_path):
+    path = tmp_path / "peaks.csv"
+    path.write_text("swing,height_in\n0,25\n1,24\n2,\n3,22\n4,21\n")
+    at, height, are_times = read_peaks(load_table(path), Reading())
+    assert (list(at), list(height), are_times) == ([0.0, 1.0, 3.0, 4.0], [25.0, 24.0, 22.0, 21.0], False)
+    path.write_text("time_s;height_mm\n0,5;25\n1,5;-24\n")
+    with pytest.raises(FileError, match="line 3: height = -24: must be finite and > 0"):
+        read_peaks(load_table(path), Reading())
+    path.write_text("time_s;height_mm\n0,5;25\n1,5;24\n")
+    assert read_peaks(load_table(path), Reading())[2]
