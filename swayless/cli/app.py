@@ -16,6 +16,7 @@ from swayless.cli.build import build
 from swayless.cli.design import design_app
 from swayless.cli.generate import generate
 from swayless.cli.help_text import help_text
+from swayless.cli.identify import IdentifyCommand, identify
 from swayless.cli.init import init
 from swayless.cli.options import OptionError
 from swayless.cli.plot import plot
@@ -34,7 +35,7 @@ class Menu(TyperGroup):
         return sorted(super().list_commands(ctx), key=_ORDER.index)
 
 
-_ORDER = ("init", "design", "plot", "simulate", "generate", "verify", "build")
+_ORDER = ("init", "identify", "design", "plot", "simulate", "generate", "verify", "build")
 
 app = typer.Typer(
     name="swayless",
@@ -68,6 +69,7 @@ def _swayless(
 app.callback(invoke_without_command=True, help=help_text(_swayless))(_swayless)
 for _command in (init, simulate, generate, verify, build):
     app.command(help=help_text(_command))(_command)
+app.command(cls=IdentifyCommand, help=help_text(identify))(identify)
 app.command(help=help_text(plot), short_help="Draw sensitivity, a response, a bank, or a trade-off.")(plot)
 app.add_typer(design_app, name="design")
 

@@ -43,11 +43,14 @@ class Noise:
         Of white noise with the power that the noise has near the mode; `rms` unless there is more.
     freedom : float
         Degrees of freedom from which `local_rms` is known.
+    chance : float
+        Chance of so much noise near the mode, were it white.
     """
 
     rms: float
     local_rms: float
     freedom: float
+    chance: float = 1.0
 
     @property
     def is_coloured(self) -> bool:
@@ -103,8 +106,8 @@ def noise_near(fit: Fit, index: int) -> Noise:
     elsewhere = max(fit.squares - freedom * local_rms**2, floor**2) / (fit.freedom - freedom)
     chance = float(fdtrc(freedom, fit.freedom - freedom, local_rms**2 / elsewhere))
     if chance > _COLOUR_SIGNIFICANCE or local_rms <= rms:
-        return Noise(rms, rms, fit.freedom)
-    return Noise(rms, local_rms, freedom)
+        return Noise(rms, rms, fit.freedom, chance)
+    return Noise(rms, local_rms, freedom, chance)
 
 
 def _power_nearby(fit: Fit, index: int) -> tuple[float, int]:

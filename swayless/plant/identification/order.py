@@ -26,6 +26,12 @@ _WORTH_A_FIT = 0.5
 _WORTH_A_LOOK = 0.05
 """Chance of a peak of the residual in noise, above which no second mode is tried."""
 
+_WORTH_A_TRY = 0.1
+"""Chance of the noise near the mode, above which no second mode is tried beside it."""
+
+_BESIDE_TURNS = 1.5
+"""Modes that part by less over the record are beside each other."""
+
 _BENT_DRIFT = 3
 _SWINGS_FOR_BENT_DRIFT = 3.0
 _SMALLEST_REST = 1e-3
@@ -142,7 +148,9 @@ def second_mode(single: Fit, value: FloatArray, *, certain: bool = False) -> Fit
         return best
     noise = noise_near(best, 1)
     excess = (noise.local_rms / noise.rms) ** 2
-    chance = chance_of(single.squares - best.squares, best, frequencies=_frequencies(best), excess=excess)
+    # A mode beside the first was not searched for all over the spectrum.
+    looks = 1.0 if turns_apart(best) < _BESIDE_TURNS else _frequencies(best)
+    chance = chance_of(single.squares - best.squares, best, frequencies=looks, excess=excess)
     return best if chance < CHANCE else None
 
 
@@ -158,7 +166,7 @@ def _second_starts(single: Fit, *, certain: bool) -> list[tuple[float, float]]:
     ]
     apart = np.pi / single.model.time_s[-1]
     beside = [(frequency - apart, decay), (frequency + apart, decay)]
-    return [*peaks, *(beside if certain or noise_near(single, 0).is_coloured else [])]
+    return [*peaks, *(beside if certain or noise_near(single, 0).chance < _WORTH_A_TRY else [])]
 
 
 def _leaves_a_rest(single: Fit, value: FloatArray) -> bool:
