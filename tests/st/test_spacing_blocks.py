@@ -156,13 +156,10 @@ def test_a_block_that_is_initialized_again_remembers_nothing(law):
     settings = jumping(law, "double")
     inputs = inputs_of(settings, 2000)
     inputs["selector"][1000:] = np.minimum(inputs["selector"][1000:], 1)
-    text = text_of(settings).replace(
-        "IF NOT Initialized THEN", "IF (NOT Initialized) OR (Selector = 77) THEN"
-    )
-    again = np.concatenate([inputs[:1000], inputs[1000:]])
-    again["selector"][1000] = 77
-    restarted = EvaluatedBlock(text, settings).run(again)[1000:]
-    assert compare(run_reference(settings, again[1000:]), restarted).is_equal
+    inputs["selector"][1000] = 77
+    once, again = "IF NOT Initialized THEN", "IF (NOT Initialized) OR (Selector = 77) THEN"
+    restarted = EvaluatedBlock(text_of(settings).replace(once, again), settings).run(inputs)[1000:]
+    assert compare(run_reference(settings, inputs[1000:]), restarted).is_equal
 
 
 @pytest.mark.parametrize("law", LAWS)
