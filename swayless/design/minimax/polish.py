@@ -14,6 +14,7 @@ import numpy as np
 from swayless.design.minimax.response import ComplexArray, IndexArray
 from swayless.design.shaper import FloatArray
 
+_LARGEST_EXPONENT = 300.0  # a step this far past frequency 0 leads nowhere, and exp would overflow
 _STEPS = 12  # two or three are usual
 _CONVERGED = 1e-13  # of the conditions, sums of at most a few dozen terms of order 1
 _TIED = 1e-8  # what peaks leave in the conditions that tie to so much, but cannot all be of one height
@@ -101,6 +102,8 @@ def polish(
         slope, curvature = _derivatives(unknowns, of_peaks, equalities, targets, peaks.moving)
         steps = np.split(np.linalg.lstsq(curvature, -slope, rcond=_FREE)[0], ends)
         unknowns = [part + step for part, step in zip(unknowns, steps, strict=True)]
+        if (unknowns[-1][:, np.newaxis] * of_peaks.real).max() > _LARGEST_EXPONENT:
+            return None
         rest = np.abs(slope).max()
         if rest < _CONVERGED or (rest < _TIED and np.abs(steps[0]).max() < _STILL):
             return meet(equalities, targets, unknowns[0])
