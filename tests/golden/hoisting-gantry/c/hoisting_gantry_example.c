@@ -20,8 +20,8 @@ int main(void)
     input.selector = 1u;
     input.rope_length_m = 9.0;
     input.rope_length_valid = true;
-    for (tick = 0u; tick < 2232u; ++tick) {
-        input.command = (tick < 815u) ? 0.8499999999999999 : 0.0;
+    for (tick = 0u; tick < 2206u; ++tick) {
+        input.command = (tick < 802u) ? 0.8 : 0.0;
         hoisting_gantry_shaper_step(&shaper, &input, &output);
         (void)printf("%lu %.9g %.9g %.9g\n", tick, input.command, output.reference,
             output.stop_distance);

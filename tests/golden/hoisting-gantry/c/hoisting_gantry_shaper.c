@@ -1,10 +1,10 @@
 /*
  * hoisting_gantry: command shaper, see hoisting_gantry_shaper.h.
- * Design SHA-256 0d62ecae7d2f91ef82db80748c3871d1f30f6911d7c345b04486dc0922d49c97.
+ * Design SHA-256 c43c9deee840c08718116d0afe10c1ad4fd6f10e6d9ad0baa1d7bc82815ed464.
  */
 #include "hoisting_gantry_shaper.h"
 
-#if (HOISTING_GANTRY_SHAPER_DESIGN != 0x0d62ecaeu)
+#if (HOISTING_GANTRY_SHAPER_DESIGN != 0xc43c9deeu)
 #error "hoisting_gantry_shaper.h and hoisting_gantry_shaper.c belong to different designs"
 #endif
 
@@ -12,7 +12,7 @@
 typedef char hoisting_gantry_ram_check[(sizeof(hoisting_gantry_shaper_t) <= (unsigned)HOISTING_GANTRY_SHAPER_RAM) ? 1 : -1];
 
 static const uint32_t hoisting_gantry_LAST_QUANTA = 843314857u; /* longest lag of any row */
-static const hoisting_gantry_real_t hoisting_gantry_MAX_COMMAND = 0.8499999999999999; /* m/s: max_speed */
+static const hoisting_gantry_real_t hoisting_gantry_MAX_COMMAND = 0.8; /* m/s: max_speed */
 static const hoisting_gantry_real_t hoisting_gantry_RAMP_ANCHOR = 1.0; /* floats next to it are the grid of ramp steps */
 static const hoisting_gantry_real_t hoisting_gantry_METRES_PER_UNIT_TICK = 0.01; /* m of way per unit and tick */
 static const hoisting_gantry_real_t hoisting_gantry_TICK_S = 0.01; /* s: tick */
@@ -34,9 +34,9 @@ static const hoisting_gantry_real_t hoisting_gantry_PER_FEWEST = 7.1375804316094
 static const hoisting_gantry_real_t hoisting_gantry_LOSS = 0.002; /* twice the damping ratio of the swing */
 static const hoisting_gantry_real_t hoisting_gantry_LONGEST_STRETCH = 0.5; /* most change of sqrt(rope length) foreseen */
 static const hoisting_gantry_real_t hoisting_gantry_LEAST_MISMATCH = 0.001953125; /* least relative error of a part that is corrected */
-static const hoisting_gantry_real_t hoisting_gantry_LEAST_ANSWER = 0.00020751953124999997; /* smaller kicks are collected */
-static const hoisting_gantry_real_t hoisting_gantry_LEAST_LACK = 8.106231689453124e-07; /* smaller corrections are left out */
-static const hoisting_gantry_real_t hoisting_gantry_LEANING_FROM = 0.8367187499999998; /* from here on answers lean away from the maximum */
+static const hoisting_gantry_real_t hoisting_gantry_LEAST_ANSWER = 0.0001953125; /* smaller kicks are collected */
+static const hoisting_gantry_real_t hoisting_gantry_LEAST_LACK = 7.62939453125e-07; /* smaller corrections are left out */
+static const hoisting_gantry_real_t hoisting_gantry_LEANING_FROM = 0.7875000000000001; /* from here on answers lean away from the maximum */
 
 /* first tap of each row, and the end */
 static const uint32_t hoisting_gantry_FIRST_TAP[3] = {
