@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from swayless.design import Shaper
     from swayless.design.grid_shaper import GridShaper
-    from swayless.machine import DesignFile
+    from swayless.machine import DesignFile, ShaperRecord
     from swayless.report import PlottedShaper
 
 
@@ -241,11 +241,20 @@ def plotted(design: DesignFile, *, prefix: bool = False) -> list[PlottedShaper]:
     impulses: Sequence[Shaper | GridShaper] = stored_taps(design)
     if design.tick_s is None:
         impulses = stored_shapers(design)
-    labels = [f"{s.name} ({s.family})" if s.name != s.family else s.family for s in design.shapers]
+    labels = [_label(design, shaper) for shaper in design.shapers]
     return [
         PlottedShaper(f"{design.name}: {label}" if prefix else label, item, item.guarantee, design.tick_s)
         for label, item in zip(labels, impulses, strict=True)
     ]
+
+
+def _label(design: DesignFile, shaper: ShaperRecord) -> str:
+    """Name a row; one that follows the machine is drawn where that is slowest."""
+    label = f"{shaper.name} ({shaper.family})" if shaper.name != shaper.family else shaper.family
+    if design.law == "fixed":
+        return label
+    rope_m = shaper.mode.rope_length_m
+    return f"{label} at " + (f"{shaper.mode.frequency_hz:.4g} Hz" if rope_m is None else f"{rope_m:.4g} m")
 
 
 def sensitivity(design: DesignFile) -> Figure:
@@ -267,6 +276,11 @@ def bank(design: DesignFile) -> Figure:
     from swayless.report import bank_figure
 
     plant = design.plant
+    if design.law != "fixed":
+        raise DesignError(
+            f'law = "{design.law}": each row works on all of the range, and a bank figure compares rows for '
+            "parts of it: plot sensitivity shows them where the machine is slowest"
+        )
     if plant.frequency_hz[0] >= plant.frequency_hz[1]:
         raise DesignError(
             "the design is for one frequency, and a bank figure needs a range: plot sensitivity instead"

@@ -127,6 +127,9 @@ def test_figures_and_proven_code_of_a_turning_arm_in_int32(run, arm, tmp_path, b
     stored = "arm/elbow_arm.design.json"
     assert run("plot", "sensitivity", stored, "-o", "s.svg").code == 0
     assert run("plot", "response", stored, "-o", "r.svg").code == 0
+    done = run("plot", "bank", stored, "-o", "b.svg")
+    assert done.code != 0
+    assert 'law = "modified": each row works on all of the range' in done.err
     done = run("plot", "sensitivity", stored, "--over", "rope-length", "-o", "s.svg")
     assert done.code == 2
     assert "is of an arm, which hangs on no rope" in done.err
