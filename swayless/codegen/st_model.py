@@ -19,9 +19,12 @@ from swayless.codegen.st_state import state_of
 from swayless.codegen.st_status import status_names
 from swayless.codegen.st_tables import StTables
 from swayless.codegen.st_types import Constant, StTypes, Table, Variable, bytes_of
+from swayless.controller.diagnostics import NO_DIAGNOSTICS
 from swayless.controller.measured import ROPE
+from swayless.controller.operator_settings import NO_OPTIONS
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.spacing_filter import spacing_of
+from swayless.errors import CodegenError
 
 LOADING = (
     "After a change of this file load it with a cold start: an online change would keep the old tables.",
@@ -45,14 +48,19 @@ class StModel:
     Raises
     ------
     CodegenError
-        If the number type is int32, a name is reserved, too long or collides, or a text cannot stand in a
-        comment.
+        If the number type is int32, the block has an optional function, a name is reserved, too long or
+        collides, or a text cannot stand in a comment.
     """
 
     settings: ShaperSettings
     origin: Provenance
 
     def __post_init__(self) -> None:
+        if self.settings.operator != NO_OPTIONS or self.settings.diagnostics != NO_DIAGNOSTICS:
+            raise CodegenError(
+                "Structured Text: no code yet for steps, switches, distances, contactors, drive feedback, "
+                "tuning, a start from zero and diagnostics; design the block without them"
+            )
         names = [pin.st_name for pin in (*input_pins(self.settings), *output_pins(self.settings))]
         names += [item.st_name for group in (self.st_constants, self.st_tables) for item in group]
         names += [item.st_name for group in (self.st_state, self.st_scratch) for item in group]
