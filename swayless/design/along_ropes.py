@@ -19,7 +19,8 @@ from swayless.plant import Band, DrivenRopes, pendulum_frequency_hz
 
 _SAMPLES_PER_PERIOD = 128  # of the duration, over the pendulum's frequency; V^2 holds hardly anything faster
 _FEWEST = 65
-_PLACES = 4097  # of ropes among which those of a band are looked for: 0.3 % apart
+_PLACES = 2049  # of ropes among which those of a band are looked for: 0.5 % apart
+_REACHES = (2.0, 4.0, WIDEST_RATIO)  # in frequency, of ropes to either side, until both ends are found
 _NEAR = 0.99  # of the tolerance: a sampled maximum this high may be above it between samples
 _PEAK_ACCURACY = 1e-7  # relative, of the rope of a maximum, where what is left is flat
 _EDGE_ACCURACY = 1e-13  # relative, of the last rope held
@@ -111,8 +112,12 @@ def held_ropes(
             f"the impulses leave {here:.6g} on {rope_length_m:.6g} m of rope: more than the tolerance"
             f" {tolerance!r}"
         )
-    whole_m = rope_length_m / WIDEST_RATIO**2, rope_length_m * WIDEST_RATIO**2
-    lengths_m, left = _profile(impulses, ropes, whole_m, (_NEAR * tolerance, tolerance))
+    for reach in _REACHES:
+        around_m = rope_length_m / reach**2, rope_length_m * reach**2
+        lengths_m, left = _profile(impulses, ropes, around_m, (_NEAR * tolerance, tolerance))
+        beyond_m = lengths_m[left > tolerance]
+        if (beyond_m < rope_length_m).any() and (beyond_m > rope_length_m).any():
+            break
     middle = int(np.searchsorted(lengths_m, rope_length_m))
     lengths_m, left = np.insert(lengths_m, middle, rope_length_m), np.insert(left, middle, here)
     outside = np.concatenate([[-1], np.flatnonzero(left > tolerance), [left.size]])

@@ -24,7 +24,7 @@ def swing_pole(drive, rope_m, damping_ratio):
     return vibrating[(-vibrating.real / abs(vibrating)).argmin()]
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(derandomize=True, deadline=None, max_examples=30)
 @given(
     load_ratio=st.floats(0.2, 5.0),
     lag_s=st.floats(0.005, 0.2),
