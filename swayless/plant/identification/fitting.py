@@ -118,7 +118,7 @@ def fit(model: SwingModel, value: FloatArray, start: FloatArray, *, held: tuple[
         Parameters that stay as they are: frequencies or decays.
     """
     free = np.setdiff1d(np.arange(model.parameter_count), held)
-    state, damping = _at(model, value, start), _FIRST_DAMPING
+    state, damping = _at(model, value, model.settle(start, value)[0]), _FIRST_DAMPING
     for _ in range(_MOST_STEPS):
         normal = state.normal[np.ix_(free, free)]
         step = np.zeros(model.parameter_count)
@@ -138,9 +138,14 @@ def fit(model: SwingModel, value: FloatArray, start: FloatArray, *, held: tuple[
 
 
 def _at(model: SwingModel, value: FloatArray, parameters: FloatArray) -> _State:
-    settled, residual, jacobian = model.settle(parameters, value)
+    """Solve for the linear parameters, and linearise; those of a bent wave take steps like others."""
+    if model.waveform is None:
+        parameters, residual, jacobian = model.settle(parameters, value)
+    else:
+        predicted, jacobian = model.evaluate(parameters)
+        residual = value - predicted
     normal, gradient = jacobian.T @ jacobian, jacobian.T @ residual
-    return _State(settled, residual, float(residual @ residual), normal, gradient)
+    return _State(parameters, residual, float(residual @ residual), normal, gradient)
 
 
 def _tried(model: SwingModel, value: FloatArray, parameters: FloatArray) -> _State | None:

@@ -19,6 +19,9 @@ from swayless.plant.identification.swing_model import DECAY, FREQUENCY, PER_MODE
 CHANCE = 1e-4
 """Chance at which noise alone may look like a mode or a drift."""
 
+CHANCE_OF_A_SWING = 0.01
+"""Chance at which noise alone may look like the swing that somebody recorded."""
+
 _STARTS = 4
 _WORTH_A_FIT = 0.5
 """Starts with less than this part of the best one's energy cannot win."""
@@ -64,7 +67,10 @@ def single_mode(time_s: FloatArray, value: FloatArray) -> Fit:
         raise PlantError(
             "the record shows no swing: it lasts for less than one, or has too few samples of it"
         )
-    if chance_of(float(level @ level) - best.squares, best, frequencies=_frequencies(best)) > CHANCE:
+    if (
+        chance_of(float(level @ level) - best.squares, best, frequencies=_frequencies(best))
+        > CHANCE_OF_A_SWING
+    ):
         raise PlantError("the record shows no swing: nothing stands out of the noise")
     swings = best.mode(0)[FREQUENCY] * time_s[-1] / (2.0 * np.pi)
     return _with_bent_drift(best, value) if swings >= _SWINGS_FOR_BENT_DRIFT else best

@@ -115,23 +115,19 @@ class SwingModel:
         of_scale = waveform.angle_exponent / frequency
         lag, lag_by_decay, lag_by_log = lag_s(time_s, float(mode[DECAY]), scale * abs(amplitude))
         wave = amplitude * _wave(time_s, mode, lag)
-        slip = -1j * frequency * lag_by_log
-        # Derivatives of the logarithm of the wave; an amplitude acts on its size, its phase, and the lag.
-        logarithms = {
-            FREQUENCY: 1j * (time_s - lag) + slip * of_scale,
-            DECAY: -time_s - 1j * frequency * lag_by_decay,
-            COSINE: 1.0 / amplitude + slip * (1.0 / amplitude).real,
-            SINE: -1j / amplitude + slip * (-1j / amplitude).real,
+        value, turned, grown, scaled = waveform.weigh(wave, scale)
+        slip = frequency * lag_by_log
+        # Derivatives of the logarithm of the wave, its size and its phase; an amplitude acts on the lag too.
+        inward, across = (1.0 / amplitude), (-1j / amplitude)
+        logarithms: dict[int, tuple[FloatArray | float, FloatArray]] = {
+            FREQUENCY: (0.0, time_s - lag - of_scale * slip),
+            DECAY: (-time_s, -frequency * lag_by_decay),
+            COSINE: (inward.real, inward.imag - inward.real * slip),
+            SINE: (across.real, across.imag - across.real * slip),
         }
-        value, square = np.zeros(time_s.size), (scale * np.abs(wave)) ** 2
-        jacobian[:] = 0.0
-        for (harmonic, order), coefficient in waveform.coefficients.items():
-            term = coefficient * scale ** (harmonic - 1) * wave**harmonic * square**order
-            value += term.real
-            for column, change in logarithms.items():
-                of_wave = harmonic * change + 2.0 * order * change.real
-                of_angle = (harmonic - 1 + 2 * order) * of_scale if column == FREQUENCY else 0.0
-                jacobian[:, column] += (term * (of_wave + of_angle)).real
+        for column, (size, phase) in logarithms.items():
+            jacobian[:, column] = (turned.real + grown) * size - turned.imag * phase
+        jacobian[:, FREQUENCY] += of_scale * scaled
         return value
 
 

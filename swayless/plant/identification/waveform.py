@@ -19,11 +19,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swayless.plant.identification.record import FloatArray, Quantity
 from swayless.plant.pendulum import STANDARD_GRAVITY_M_S2
+
+ComplexArray: TypeAlias = NDArray[np.complex128]
 
 _FLAT = 1e-4
 """Below this decay over the record, differences of exponentials are series: their digits would cancel."""
@@ -57,6 +61,39 @@ class Waveform:
         if self.quantity is Quantity.position:
             return frequency_rad_s**2 / STANDARD_GRAVITY_M_S2
         return 1.0 / STANDARD_GRAVITY_M_S2 if self.quantity is Quantity.acceleration else 1.0
+
+    def weigh(
+        self, wave: ComplexArray, scale: float
+    ) -> tuple[FloatArray, ComplexArray, FloatArray, FloatArray]:
+        """Give the record for a plain wave, and what its derivatives are made of.
+
+        Parameters
+        ----------
+        wave : ndarray of complex, shape (n,)
+            The fundamental to first order, in the unit of the record.
+        scale : float
+            Of `angle_per_value`.
+
+        Returns
+        -------
+        value, turned, grown, scaled : ndarray
+            The record; for a change d of the logarithm of the wave it changes by Re(turned d) + grown Re(d),
+            and for a change of the logarithm of the scale by `scaled` times that.
+        """
+        square = (scale * np.abs(wave)) ** 2
+        value, turned, grown, scaled = np.zeros(wave.size), np.zeros_like(wave), *np.zeros((2, wave.size))
+        for harmonic in (1, 3, 5):
+            orders = {order: each for (of, order), each in self.coefficients.items() if of == harmonic}
+            size = np.polynomial.polynomial.polyval(square, [orders.get(order, 0.0) for order in range(3)])
+            growth = np.polynomial.polynomial.polyval(
+                square, [2.0 * order * orders.get(order, 0.0) for order in range(3)]
+            )
+            overtone = wave if harmonic == 1 else wave * (scale * wave) ** (harmonic - 1)
+            value += overtone.real * size
+            turned += overtone * (harmonic * size)
+            grown += overtone.real * growth
+            scaled += overtone.real * ((harmonic - 1) * size + growth)
+        return value, turned, grown, scaled
 
     @property
     def angle_exponent(self) -> int:
