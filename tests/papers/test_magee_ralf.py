@@ -79,6 +79,8 @@ def test_fig_17_what_whole_ticks_leave_at_50_hz_is_20_db():
     worst = worst_truncated_residual(paper.block("modified", "zvd").bank.rows[0].taps)
     assert 20.0 * np.log10(worst) == pytest.approx(-20.4, abs=0.05)
     assert worst == pytest.approx(0.095, abs=5e-4)
+    # At 200 Hz half a period of 5.5 Hz is cut from 18.2 to 18 ticks, the narrowest spacing.
+    assert np.cos(0.5 * np.pi * 18 / 19) ** 2 == pytest.approx(0.007, abs=5e-4)
 
 
 def test_a_fixed_shaper_for_the_middle_leaves_8_and_11_percent_at_the_ends_of_the_band():
