@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 
 from swayless.controller import CommandShaper, Status
 from tests.properties.strategies import NUMBERS, examples
-from tests.unit.controller.blocks import command_of, fork, run
+from tests.unit.controller.blocks import block, command_of, fork, run
 from tests.unit.controller.operator_blocks import (
     KINDS,
     STEP_SIZES_M,
     hands_off,
     metres,
+    operated,
     operator_block,
     to_rest,
     travelled_m,
@@ -243,3 +244,56 @@ def test_a_slow_switch_limits_the_command_towards_it_by_the_ramp_and_no_other(ki
     press = hands_off(settings, step_forward=True, step_size=3, slow_forward=True)
     steps = [shaper.step(press), *to_rest(shaper, hands_off(settings, slow_forward=True))]
     assert max(out.reference for out in steps) <= slow
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("kind", POSITIVE)
+def test_a_reversal_that_is_pending_does_not_turn_towards_a_switch_made_meanwhile(kind, number):
+    settings = operator_block(kind, number, {"acceleration_m_s2": 5.0}, stop_switches=True)
+    ahead, back = (hands_off(settings, command=command_of(settings, sign)) for sign in (1.0, -1.0))
+    made = ahead._replace(stop_forward=True)
+    turned = 0
+    for ticks in (*range(1, 9), *range(9, 100, 9)):
+        shaper = CommandShaper(settings)
+        run(shaper, [back] * 150)
+        last = run(shaper, [ahead] * ticks)[-1].reference
+        if last >= 0:
+            break
+        outs = run(shaper, [made] * 250)
+        references = [last] + [out.reference for out in outs]
+        assert max(references) == 0
+        assert references[-1] == 0
+        steps = np.diff(np.array(references, dtype=float))
+        largest = max(float(settings.limits.acceleration_step), float(settings.limits.deceleration_step))
+        assert max(abs(steps)) <= largest + (1 if number == "int32" else 1e-5 * largest)
+        turned += any(out.status & Status.QUICK_STOP for out in outs)
+        assert all(out.reference == 0 for out in run(shaper, [hands_off(settings)] * 100))
+    assert turned, "nothing was pending towards the switch"
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_what_is_pending_at_a_reference_of_0_is_dropped_at_once_and_not_foretold(number):
+    unramped = {"acceleration_m_s2": None, "deceleration_m_s2": None, "quick_stop_m_s2": None}
+    settings = operated(block(((0, 0.5), (8, 0.5)), number=number, **unramped), stop_switches=True)
+    shaper = CommandShaper(settings)
+    outs = run(shaper, [hands_off(settings, command=settings.limits.max_command), hands_off(settings)])
+    assert outs[1].reference == 0
+    assert outs[1].stop_distance > 0
+    made = shaper.step(hands_off(settings, stop_forward=True))
+    assert made.status & Status.QUICK_STOP
+    assert made.stop_distance == 0
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("kind", KINDS)
+def test_steps_whose_way_jumps_too_short_end_where_the_ramp_does_and_do_not_return(kind, number):
+    settings = operator_block(kind, number, step_sizes_m=(1.0, 2.0, 10.0), **WAYS)
+    track = Track(settings, 100.0, 100.0)
+    track.run(hands_off(settings), 1)
+    track.run(hands_off(settings, step_forward=True, step_size=3), 120)
+    track.forward_m = track.place_m + 0.3
+    outs = track.run(hands_off(settings), 600)
+    assert any(out.status & Status.WAY_TOO_SHORT for out in outs)
+    assert all(out.reference >= 0 for out in outs)
+    assert not outs[-1].status & Status.STEPPING
+    assert outs[-1].stop_distance == 0

@@ -282,3 +282,13 @@ def test_steps_swing_no_more_than_the_guarantee_of_their_row_allows(number, size
     # In int32 each reference is rounded to a count, which swings by as much.
     slack = 2.0 * len(speeds) ** 0.5 if number == "int32" else 0.0
     assert swing[1] <= settings.bank.rows[0].taps.guarantee.tolerance * swing[0] + slack
+
+
+def test_what_rounding_leaves_after_a_long_ramp_is_not_travelled_back():
+    # In float the sum of this ramp of 157 ticks to rest is rounded up, and the step ends an ulp too far.
+    ramps = {"acceleration_m_s2": 0.09739560485559633, "deceleration_m_s2": 0.06388784397520522}
+    settings = operator_block("zvd", "float", ramps, step_sizes_m=(7.798082319246751,) * 3)
+    shaper = CommandShaper(settings)
+    outs = run(shaper, [hands_off(settings), hands_off(settings, step_forward=True)])
+    outs += to_rest(shaper, hands_off(settings))
+    assert all(out.reference >= 0 for out in outs)
