@@ -5,6 +5,7 @@ Not for: finding it.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -62,7 +63,10 @@ def _row(mode: IdentifiedMode, *, with_rope: bool) -> list[str]:
     )
     row = [with_std(mode.frequency_hz, mode.frequency_hz_std)]
     row += [with_std(period_s, period_s * mode.frequency_hz_std / mode.frequency_hz), damping]
-    row += [f"{band.low_hz:.6g} to {band.high_hz:.6g}"]
+    decimals = _decimals(mode.frequency_hz_std)
+    unit = 10.0**-decimals
+    low_hz, high_hz = unit * math.floor(band.low_hz / unit), unit * math.ceil(band.high_hz / unit)
+    row += [f"{low_hz:.{decimals}f} to {high_hz:.{decimals}f}"]
     if with_rope:
         length_m = pendulum_rope_length_m(mode.frequency_hz)
         row.append(with_std(length_m, 2.0 * length_m * mode.frequency_hz_std / mode.frequency_hz))
@@ -77,8 +81,13 @@ def with_std(value: float, std: float) -> str:
     >>> with_std(0.2501234, 0.000321), with_std(6.1, 0.0), with_std(0.004, 12.0)
     ('0.25012 +- 0.00032', '6.100000000000 +- 0.000000000000', '0 +- 12')
     """
-    decimals = 12 if std < 1e-11 else max(0, 1 - int(f"{std:e}".partition("e")[2]))
+    decimals = _decimals(std)
     return f"{value:.{decimals}f} +- {std:.{decimals}f}"
+
+
+def _decimals(std: float) -> int:
+    """Count the decimals that show two digits of a standard deviation."""
+    return 12 if std < 1e-11 else max(0, 1 - int(f"{std:e}".partition("e")[2]))
 
 
 def _offset_text(offset: RopeOffset) -> str:

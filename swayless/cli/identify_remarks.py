@@ -25,10 +25,11 @@ def remarks(found: AllFound) -> Iterator[str]:
     ----------
     found : AllFound
     """
-    for each in found.records:
-        prefix = f"{each.source}: " if len(found.records) > 1 else ""
-        for remark in of_record(each):
-            yield f"{prefix}{remark}"
+    each_of = [list(of_record(each)) for each in found.records]
+    common = [remark for remark in each_of[0] if all(remark in others for others in each_of)]
+    yield from common
+    for each, its in zip(found.records, each_of, strict=True):
+        yield from (f"{each.source}: {remark}" for remark in its if remark not in common)
     offset = found.offset
     if offset is None:
         return
