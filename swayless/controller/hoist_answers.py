@@ -64,7 +64,13 @@ def answers(settings: ShaperSettings) -> tuple[Answer, ...]:
 
 
 def leaning_from(settings: ShaperSettings) -> Any:
-    """Find the command from which on answers lean, in the number type."""
+    """Find the command from which on answers lean, in the number type.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        Constants of the block.
+    """
     most = settings.limits.max_command
     if settings.number.is_integer:
         return int(most) - int(int(most) * LEANING)
@@ -85,6 +91,11 @@ def answer(phases_rad: FloatArray, amplitudes: FloatArray, damping_ratio: float)
         Of the taps, in sum 1.
     damping_ratio : float
         Of the swing.
+
+    Returns
+    -------
+    Answer
+        Its steps, in the order of the taps.
 
     Examples
     --------
