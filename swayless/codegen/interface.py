@@ -20,7 +20,7 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     units = settings.limits.units
     by_rope = settings.bank.by_rope is not None
     choice = "1 the row of the rope" if by_rope else f"1 to {len(settings.bank.rows)} rows"
-    pins = (
+    pins: tuple[Pin, ...] = (
         pin(
             "enable",
             "bool",
@@ -102,7 +102,7 @@ def output_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     bound = "residual vibration that the row guarantees; all of it when unshaped"
     if settings.diagnostics.rope_bounds is not None:
         bound = "residual vibration that the row leaves at most on the rope of now; all of it when unshaped"
-    pins = (
+    pins: tuple[Pin, ...] = (
         Pin("reference", "reference", "Reference", "real", "speed for the drive", units, "counts"),
         Pin(
             "stop_distance",

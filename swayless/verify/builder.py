@@ -36,16 +36,33 @@ class Builder:
         self.max = float(limits.max_command)
 
     def blank(self, ticks: int) -> NDArray[np.void]:
-        """Make records of a block at rest: enabled, row 1, command 0, the rope still."""
+        """Make records of a block at rest: enabled, row 1, command 0, the rope still, the ends far away."""
         inputs = np.zeros(ticks, dtype=input_dtype(self.settings))
-        inputs["enable"] = True
-        inputs["selector"] = 1
+        for name, value in self._untouched.items():
+            if name in (inputs.dtype.names or ()):
+                inputs[name] = value
         rope = self.settings.rope
         if rope is not None:
             between = self.reals(self.random.uniform(float(rope.shortest), float(rope.longest)))
             inputs["rope_length"] = self.random.choice([rope.shortest, rope.longest, between, between])
             inputs["rope_length_valid"] = True
         return inputs
+
+    @property
+    def _untouched(self) -> dict[str, Any]:
+        """Inputs that are not 0 or false when nobody touches anything."""
+        limits, way = self.settings.limits, self.settings.operator.way
+        far = 0 if way is None else way.margin + way.farthest
+        return {
+            "enable": True,
+            "selector": 1,
+            "step_size": 1,
+            "distance_forward": far,
+            "distance_reverse": far,
+            "distance_valid": True,
+            "drive_ready": True,
+            "speed_limit": limits.max_command,
+        }
 
     def reals(self, values: ArrayLike) -> NDArray[Any]:
         """Bring values into the number type; in int32 rounded."""

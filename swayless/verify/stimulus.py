@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from swayless.controller.settings import ShaperSettings
 from swayless.verify.builder import Builder
+from swayless.verify.operator_stimulus import habits, touched
 from swayless.verify.rope_stimulus import hoisted, misread, wandering
 
 
@@ -120,7 +121,8 @@ def stimuli(settings: ShaperSettings, *, ticks: int, seed: int = 1) -> Iterator[
     Stimulus
         Steps, pendant jogs, random joystick, knob, stops and bad input; where the rope or a position is
         measured, while that is held still, then some of them while it moves and while it is read wrongly,
-        and, where taps follow a spacing, while it wanders through all spacings.
+        and, where taps follow a spacing, while it wanders through all spacings. Where there are buttons for
+        steps, switches, distances, feedback or something to set: each of these, and all at once.
     """
     build = Builder(settings, seed)
     made = [step_and_release(build), jogs(build)]
@@ -132,6 +134,20 @@ def stimuli(settings: ShaperSettings, *, ticks: int, seed: int = 1) -> Iterator[
         yield Stimulus("rope read wrongly", misread(build, hoisted(build, joystick(build, ticks).inputs)))
     if settings.is_spaced:
         yield Stimulus("steps, every spacing", wandering(build, made[0].inputs))
+    yield from _operated(build, ticks)
+
+
+def _operated(build: Builder, ticks: int) -> Iterator[Stimulus]:
+    """Make the stimuli of what only some blocks have inputs for."""
+    for name, habit in habits(build.settings):
+        inputs = joystick(build, ticks).inputs
+        inputs["command"] *= build.held(ticks, np.array([0, 1, 1], dtype=inputs["command"].dtype), 60)
+        habit(build, inputs)
+        yield Stimulus(name, inputs)
+    if habits(build.settings):
+        inputs = stops(build, ticks).inputs
+        inputs = inputs if build.settings.rope is None else misread(build, hoisted(build, inputs))
+        yield Stimulus("everything at once", touched(build, inputs))
 
 
 def soak(settings: ShaperSettings, *, ticks: int, seed: int = 2) -> Stimulus:
@@ -152,4 +168,5 @@ def soak(settings: ShaperSettings, *, ticks: int, seed: int = 2) -> Stimulus:
     inputs["emergency_stop"] = build.held(ticks, np.array([False] * 199 + [True]), 50)
     if settings.rope is not None:
         inputs = misread(build, hoisted(build, inputs), one_in=50)
+    inputs = touched(build, inputs)
     return Stimulus(f"soak of {ticks} ticks", inputs)

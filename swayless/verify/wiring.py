@@ -20,6 +20,7 @@ from swayless.codegen.render import GeneratedFile
 from swayless.errors import VerificationError
 from swayless.verify.builder import Builder
 from swayless.verify.comparison import compare
+from swayless.verify.operator_stimulus import touched
 from swayless.verify.records import output_dtype
 from swayless.verify.reference_run import run_reference
 from swayless.verify.rope_stimulus import hoisted, misread
@@ -122,7 +123,7 @@ def _all_moving(block: AxisBlock, seed: int) -> NDArray[np.void]:
     """Move every input of a block."""
     build = Builder(block.settings, seed)
     parts = [stimulus(build, WIRING_TICKS).inputs for stimulus in (joystick, knob, stops, bad_input)]
-    inputs = np.concatenate(parts)
+    inputs = touched(build, np.concatenate(parts))
     return inputs if block.settings.rope is None else misread(build, hoisted(build, inputs))
 
 
