@@ -112,12 +112,12 @@ static const hoisting_gantry_real_t hoisting_gantry_SERIES[4] = {
 /* steps of the taps, by row, that answer a wanted step of 1: in sum 0, and without way */
 static const hoisting_gantry_real_t hoisting_gantry_ANSWER[4] = {
     0.0,
-    0.2500000002964489, -0.49999999999999956, 0.24999999970355072
+    0.25, -0.5, 0.25
 };
 /* steps of the taps, by row, that excite nothing: with them an answer goes only up or only down */
 static const hoisting_gantry_real_t hoisting_gantry_LEAN[4] = {
     0.0,
-    0.2500000002964489, 0.0, -0.250000000296449
+    0.25, 0.0, -0.25
 };
 
 /* A ramp: its step per tick, rounded up to the grid, and what its closed form needs. */
