@@ -162,9 +162,11 @@ def _is_still(model: SwingModel, step: FloatArray, state: _State) -> bool:
     nonlinear = [mode * PER_MODE + which for mode in range(model.modes) for which in (FREQUENCY, DECAY)]
     moved = np.abs(step[nonlinear])
     variance = state.squares / max(1, model.time_s.size - step.size)
-    # Of a parameter alone, the others known: less than its standard deviation.
-    std = np.sqrt(variance / np.diag(state.normal)[nonlinear])
-    return bool(np.max(moved) * model.time_s[-1] < _STILL or (moved <= _STILL_STD * std).all())
+    # Against the standard deviation of each parameter with the others known, which is not the larger one.
+    weighed = moved * np.sqrt(np.diag(state.normal)[nonlinear])
+    return bool(
+        np.max(moved) * model.time_s[-1] < _STILL or np.max(weighed) <= _STILL_STD * np.sqrt(variance)
+    )
 
 
 def with_parameters(model: SwingModel, *modes: tuple[float, float]) -> FloatArray:

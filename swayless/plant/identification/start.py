@@ -23,7 +23,7 @@ _DECAYS = (0.0, *(4.0**power for power in range(6)))
 _LARGEST_DECAY_RATIO = 0.6
 """Of the frequency: a damping ratio of 0.5. What decays faster is no swing."""
 
-_MOST_CELLS = 2**20
+_MOST_CELLS = 2**19
 _EVEN = 0.02
 _FINER = 4
 _PEAKS_PER_DECAY = 4

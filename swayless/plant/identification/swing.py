@@ -163,10 +163,7 @@ def _identified(
         modes = (_widened(modes[0], mixture),)
     swinging = [mode for mode in modes if _swings(mode, record)]
     if not swinging:
-        raise PlantError(
-            f"the record holds {modes[0].frequency_hz * record.duration_s:.2g} swings in"
-            f" {record.duration_s:.4g} s: at least one is needed, and three or more to be exact"
-        )
+        raise PlantError(_no_swing(modes[0], record))
     by_amplitude = sorted(swinging, key=lambda mode: -(mode.amplitude or 0.0))
     return IdentifiedSwing(record, found, tuple(by_amplitude), noise, not mixture)
 
@@ -178,6 +175,18 @@ def _undecided(found: IdentifiedSwing, taken: Fit, other: Fit) -> IdentifiedSwin
     ratio = (first.damping_ratio or 0.0) - (second.damping_ratio or 0.0)
     mode = _with_spread(mode, _OTHER_MODEL * (first.frequency_hz - second.frequency_hz), _OTHER_MODEL * ratio)
     return replace(found, modes=(mode, *found.modes[1:]), is_decided=False)
+
+
+def _no_swing(mode: IdentifiedMode, record: SwingRecord) -> str:
+    if (mode.damping_ratio or 0.0) > LARGEST_DAMPING:
+        return (
+            f"the record dies away within a swing, damping ratio {mode.damping_ratio:.2g}: must be at most"
+            f" {LARGEST_DAMPING:g} for a free swing"
+        )
+    return (
+        f"the record holds {mode.frequency_hz * record.duration_s:.2f} swings in {record.duration_s:.4g} s:"
+        " at least one is needed, and three or more to be exact"
+    )
 
 
 def _swings(mode: IdentifiedMode, record: SwingRecord) -> bool:

@@ -139,3 +139,8 @@ def test_a_hundred_thousand_samples_take_less_than_a_second():
     # 1 s is what is promised, on a machine of its own; what other work on it costs is left room for.
     assert time.process_time() - start < 2.0
     assert mode.frequency_hz == pytest.approx(0.5, rel=1e-4)
+
+
+def test_what_dies_away_within_a_swing_is_refused():
+    with pytest.raises(PlantError, match=r"within a swing, damping ratio 0\.7: must be at most 0\.5"):
+        identify_swing(SwingRecord(TIME_S, Truth(0.3, 0.7).swing(TIME_S)))
