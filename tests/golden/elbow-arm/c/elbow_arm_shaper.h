@@ -99,7 +99,7 @@ typedef struct {
     elbow_arm_real_t command; ///< [m/s] wanted speed; clamped to the maximum, and not finite counts as 0
     uint8_t selector; ///< 0 unshaped, 1 to 1 rows; anything else keeps the last valid one
     elbow_arm_real_t position_m; ///< [m] 3.02 to 3.94: clamped; the last one holds if it cannot be true
-    elbow_arm_real_t position_speed_m_s; ///< [m/s] rate of change of the position, positive when the position grows; clamped
+    elbow_arm_real_t position_speed_m_s; ///< [m/s] rate of change of the position, positive when it grows; clamped
     bool position_valid; ///< false: the position is not to be believed
 } elbow_arm_shaper_input_t;
 
