@@ -73,22 +73,19 @@ def load_table(path: Path) -> RecordTable:
         With every problem found: file, line, cell and what is allowed.
     """
     text = read_source(path, max_bytes=MAX_BYTES).replace("\r\n", "\n").replace("\r", "\n")
-    lines = [
-        (number, line)
-        for number, line in enumerate(text.split("\n"), start=1)
-        if line and not line.isspace() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
+    lines = text.split("\n")
+    kept = [index for index, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
+    if not kept:
         raise FileError([f"{path}: is empty: a record has a line for each sample, with a time and a value"])
-    numbers, contents = zip(*lines, strict=True)
+    contents, number = [lines[index] for index in kept], np.array(kept, dtype=np.int64) + 1
     delimiter = _delimiter(contents[1 : _SAMPLE + 1] or contents)
-    rows = _split(contents, delimiter)
-    names, units, first = _heads(rows, delimiter)
-    if first == len(rows):
-        raise FileError([f"{path}: line {numbers[-1]}: has no numbers: a record has a line for each sample"])
-    width = len(names) if names else len(rows[first])
-    line = np.array(numbers[first:], dtype=np.int64)
-    values = _numbers(path, line, rows[first:], width, delimiter)
+    names, units, first = _heads(_split(contents[:2], delimiter), delimiter)
+    if first == len(contents):
+        raise FileError([f"{path}: line {number[-1]}: has no numbers: a record has a line for each sample"])
+    width = len(names) if names else len(_split(contents[:1], delimiter)[0])
+    values = _plain_numbers(contents[first:], width, delimiter)
+    if values is None:
+        values = _numbers(path, number[first:], _split(contents[first:], delimiter), width, delimiter)
     heads = tuple(
         _head(names[column] if names else f"column {column + 1}", units[column] if units else None)
         for column in range(width)
@@ -96,7 +93,7 @@ def load_table(path: Path) -> RecordTable:
     filled = [
         column for column in range(width) if heads[column].text or not np.isnan(values[:, column]).all()
     ]
-    return RecordTable(path, tuple(heads[column] for column in filled), values[:, filled], line)
+    return RecordTable(path, tuple(heads[column] for column in filled), values[:, filled], number[first:])
 
 
 def _delimiter(sample: Sequence[str]) -> str | None:
@@ -152,16 +149,19 @@ def _head(text: str, unit: str | None) -> Head:
     return head if unit is None else head._replace(unit=unit)
 
 
+def _plain_numbers(lines: Sequence[str], width: int, delimiter: str | None) -> FloatArray | None:
+    """Turn lines into numbers at once; None if any cell is not a plain number."""
+    try:
+        values = np.loadtxt(lines, delimiter=delimiter, ndmin=2, comments=None)
+    except ValueError:
+        return None
+    return values if values.shape[1] == width else None
+
+
 def _numbers(
     path: Path, line: NDArray[np.int64], rows: list[list[str]], width: int, delimiter: str | None
 ) -> FloatArray:
-    """Turn the cells into numbers: at once where all are plain ones, otherwise cell by cell."""
-    # Python reads 1_000 as a number; a record that holds it is damaged.
-    if all(len(row) == width and "_" not in "".join(row) for row in rows):
-        try:
-            return np.array([float(cell) for row in rows for cell in row]).reshape(len(rows), width)
-        except ValueError:
-            pass
+    """Turn the cells into numbers one by one, missing ones into NaN, and report what is neither."""
     problems: list[str] = []
     values = np.full((len(rows), width), np.nan)
     for index, row in enumerate(rows):

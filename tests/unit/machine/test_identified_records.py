@@ -157,6 +157,7 @@ def test_a_rope_column_makes_a_record_of_each_rope(read):
         ("t,x\n0,0,1,5\n", f"line 2: has 4 cells, where there are 2 columns; {SEMICOLONS}"),
         (f"time,x\n{ROWS}4.75,0.1\n", "line 22: time = 4.75 s does not come after 4.75 s"),
         (f"time,x\n{ROWS}1.0,0.1\n", "line 22: time = 1 s does not come after 4.75 s"),
+        ("t\tx\n\t1\n", "line 2: the time is missing or infinite"),
         (f"time,x\n{ROWS},0.1\n", "line 22: the time is missing or infinite"),
         (f"time,x\n{ROWS}5.0,inf\n", "line 22: value is infinite"),
         ("time,x\n0,1\n1,2\n", "lines 2 to 3: 2 samples: must be at least 8"),
