@@ -220,7 +220,8 @@ def _stopwatch(
 def _swings(path: Path, reading: Reading, asked: Asked) -> Iterator[Found]:
     """Identify the swings of one file."""
     for read in read_swings(load_table(path), reading):
-        with _named(path):
+        all_high = bool((read.record.value > 0.0).all())
+        with _named(path, hint="; heights of peaks need --peaks" if all_high else ""):
             swing = identify_swing(read.record, pendulum=asked.pendulum, modes=asked.modes)
         yield Found(str(path), swing.modes, read.rope_length_m, swing, read)
 
@@ -243,12 +244,12 @@ def _peaks(path: Path, asked: Asked, reading: Reading, stopwatch: list[Identifie
 
 
 @contextmanager
-def _named(path: Path) -> Iterator[None]:
+def _named(path: Path, hint: str = "") -> Iterator[None]:
     """Name the file in what the record refuses."""
     try:
         yield
     except PlantError as error:
-        raise FileError([f"{path}: {error}"]) from error
+        raise FileError([f"{path}: {error}{hint}"]) from error
 
 
 def _with_ropes(found: list[Found], ropes_m: tuple[float, ...], asked: Asked) -> AllFound:

@@ -12,6 +12,7 @@ from swayless.cli.console import counted, per_cent
 from swayless.cli.identify_input import AllFound, Found
 from swayless.machine.identified_record import ReadRecord
 from swayless.plant.identification import IdentifiedMode, IdentifiedSwing, Quantity
+from swayless.plant.identification.noise import loud_part
 from swayless.plant.identification.pendulum_swing import first_angle_rad
 from swayless.plant.identification.waveform import WAVEFORMS
 
@@ -93,6 +94,13 @@ def _of_swing(swing: IdentifiedSwing, read: ReadRecord) -> Iterator[str]:
         yield (
             "decay: not exponential (friction, air drag, or two modes at almost one frequency): the damping"
             " ratio is an average, and the uncertainty is widened"
+        )
+    loud = loud_part(swing.fit)
+    if loud is not None:
+        start_s, end_s = (float(swing.record.time_s[0]) + each for each in (loud.start_s, loud.end_s))
+        yield (
+            f"uneven: from {start_s:.4g} to {end_s:.4g} s the fit leaves {loud.ratio:.2g} times as much as"
+            " elsewhere: was the swing free there? (--start, --end)"
         )
     yield from _of_size(swing, read)
 

@@ -69,6 +69,19 @@ def test_a_short_record_and_damping_below_resolution_are_said(run, tmp_path):
     assert "\ndamping: below what this record resolves" in out
 
 
+def test_a_part_in_which_the_crane_still_moved_is_pointed_out(run, tmp_path):
+    moving = np.where(TIME_S < 8.0, 0.03 * (8.0 - TIME_S), 0.0)
+    path = write(tmp_path / "moving.csv", swing() + moving, "time_s,sensor")
+    assert "\nuneven: from 0 to 9.95 s the fit leaves " in run("identify", path).out
+    assert "uneven" not in run("identify", path, "--start", "8").out
+
+
+def test_heights_of_peaks_that_are_read_as_a_swing_are_refused_with_a_hint(run, tmp_path):
+    rows = "".join(f"{k},{30.0 * 0.97**k:.1f}\n" for k in range(30))
+    (tmp_path / "peaks.csv").write_text(f"swing,height\n{rows}")
+    assert run("identify", "peaks.csv").err.endswith("; heights of peaks need --peaks\n")
+
+
 def test_two_modes_are_printed_and_written_into_a_new_file(run, tmp_path):
     path = write(tmp_path / "two.csv", swing() + swing(0.23, 0.06, seed=2), "time_s,sensor")
     document = found(run("identify", path, "--json", "--into", "two.toml"))

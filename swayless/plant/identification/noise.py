@@ -14,6 +14,7 @@ P. Whittle, "Estimation and information in stationary time series", *Arkiv foer 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,6 +27,11 @@ _FEWEST_BINS = 4
 _NEARBY = 0.25
 _TWO_STD = 0.9772498680518208
 """Part of a normal distribution below two standard deviations."""
+
+_PARTS, _FEWEST_PER_PART = 8, 10
+_LOUD, _LOUD_CHANCE = 4.0, 1e-4
+_AUDIBLE = 1e-6
+"""Part of the amplitude below which nobody cares what is left."""
 
 _ROUNDING = 1e-15
 """Of the largest value: what arithmetic in double leaves of a record without noise."""
@@ -108,6 +114,48 @@ def noise_near(fit: Fit, index: int) -> Noise:
     if chance > _COLOUR_SIGNIFICANCE or local_rms <= rms:
         return Noise(rms, rms, fit.freedom, chance)
     return Noise(rms, local_rms, freedom, chance)
+
+
+class LoudPart(NamedTuple):
+    """Part of a record in which the fit leaves more than elsewhere: from when to when, and how much more."""
+
+    start_s: float
+    end_s: float
+    ratio: float
+
+
+def loud_part(fit: Fit) -> LoudPart | None:
+    """Find the eighth of a record that the model fits worst, if it does so beyond chance.
+
+    A crane that still moves, a knock or a gust: in such a part the swing is not free.
+
+    Parameters
+    ----------
+    fit : Fit
+        Times count from the first sample.
+
+    Examples
+    --------
+    >>> from swayless.plant.identification.order import single_mode
+    >>> time_s = np.linspace(0.0, 40.0, 801)
+    >>> knock = np.where(time_s < 5.0, 0.1 * time_s, 0.0)
+    >>> loud_part(single_mode(time_s, np.cos(2.0 * time_s) + knock)).end_s
+    5.0
+    """
+    from scipy.special import fdtrc
+
+    parts = np.array_split(fit.residual, _PARTS)
+    if fit.residual.size < _PARTS * _FEWEST_PER_PART or fit.variance < (_AUDIBLE * fit.amplitude(0)) ** 2:
+        return None
+    power = np.array([float(part @ part) / part.size for part in parts])
+    worst = int(np.argmax(power))
+    ratio = float(power[worst] / max(np.delete(power, worst).mean(), _AUDIBLE**2 * power[worst]))
+    count = parts[worst].size
+    if ratio < _LOUD or _PARTS * float(fdtrc(count, fit.residual.size - count, ratio)) > _LOUD_CHANCE:
+        return None
+    first = sum(part.size for part in parts[:worst])
+    time_s = fit.model.time_s
+    return LoudPart(float(time_s[first]), float(time_s[first + count - 1]), float(np.sqrt(ratio)))
 
 
 def _power_nearby(fit: Fit, index: int) -> tuple[float, int]:
