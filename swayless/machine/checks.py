@@ -79,12 +79,13 @@ def two(single: Check[float]) -> Check[tuple[float, float]]:
     return check
 
 
-def some(single: Check[T], *, at_most: int) -> Check[tuple[T, ...]]:
-    """Check for an array of one to `at_most` items."""
+def some(single: Check[T], *, at_least: int = 1, at_most: int) -> Check[tuple[T, ...]]:
+    """Check for an array of `at_least` to `at_most` items."""
 
     def check(value: object, place: Place) -> tuple[T, ...] | None:
-        if not isinstance(value, list) or not 1 <= len(value) <= at_most:
-            place.wrong(value, f"must be an array of 1 to {at_most}")
+        if not isinstance(value, list) or not at_least <= len(value) <= at_most:
+            size = f"{at_least}" if at_least == at_most else f"{at_least} to {at_most}"
+            place.wrong(value, f"must be an array of {size}")
             return None
         items = [single(item, place.item(index)) for index, item in enumerate(value)]
         good = tuple(item for item in items if item is not None)

@@ -44,6 +44,7 @@ from swayless.machine.design_members import (
 )
 from swayless.machine.following_row import SPACED_LAWS
 from swayless.machine.law_record import law_disagreements
+from swayless.machine.operator_record import DiagnosticsRecord, OperatorRecord
 from swayless.machine.record import Record, one, one_of, optional, several, where_needed
 from swayless.machine.robust_row import AMPLITUDE_RULES
 from swayless.machine.spacing_record import PositionRecord, SpacingRecord
@@ -297,6 +298,8 @@ class DesignFile(Record):
     bank: Annotated[BankRecord | None, optional(one(BankRecord))]
     clock: Annotated[ClockRecord | None, optional(one(ClockRecord))] = None
     spacing: Annotated[SpacingRecord | None, where_needed(one(SpacingRecord))] = None
+    operator: Annotated[OperatorRecord | None, where_needed(one(OperatorRecord))] = None
+    diagnostics: Annotated[DiagnosticsRecord | None, where_needed(one(DiagnosticsRecord))] = None
 
     def disagreements(self) -> Iterator[tuple[str, str]]:
         """Require what no record sees by itself: between shapers, tick, drive and bank."""

@@ -13,6 +13,7 @@ from swayless.machine.checks import choice, flag, integer, label, machine_name
 from swayless.machine.problems import RefusedError, plain
 from swayless.machine.record import Member, several
 from swayless.machine.stored_numbers import (
+    around_zero,
     counting,
     inward_12,
     real,
@@ -60,6 +61,9 @@ RANGE = ruled(several(POSITIVE, at_least=2, at_most=2), rising_pair)
 BAND = Member(RANGE.check, inward_12)
 FURTHER_BANDS = several(BAND, at_least=0, at_most=MAX_BANDS)
 DAMPING_RANGE = ruled(several(DAMPING, at_least=2, at_most=2), rising_pair)
+STEPS = several(POSITIVE, at_least=3, at_most=3)
+CONTACTOR_SPEEDS = ruled(several(POSITIVE, at_least=1, at_most=2), rising)
+OFFSETS = ruled(several(FINITE, at_least=2, at_most=2), around_zero)
 TIMES = ruled(several(FINITE, at_least=1, at_most=MAX_IMPULSES), rising_from_zero)
 AMPLITUDES = ruled(several(AMPLITUDE, at_least=1, at_most=MAX_IMPULSES), sums_to_one)
 DELAYS = ruled(several(Member(integer(0, 2**31 - 1)), at_least=1, at_most=MAX_IMPULSES), rising_from_zero)

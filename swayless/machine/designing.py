@@ -30,6 +30,7 @@ from swayless.machine.driven_bank import design_driven_bank
 from swayless.machine.driven_row import design_driven_row, driven_record
 from swayless.machine.following_row import SPACED_LAWS
 from swayless.machine.machine_file import Machine
+from swayless.machine.operator_record import diagnostics_record, operator_record
 from swayless.machine.phase_row import clock_of, design_phase_row
 from swayless.machine.plant_section import PlantSection, rope_bands
 from swayless.machine.row_design import design_of
@@ -84,6 +85,8 @@ def design_machine(machine: Machine, *, on_row: Callable[[str], None] = lambda _
         bank=bank,
         clock=_clock_record(machine, records) if machine.controller.law == "phase" else None,
         spacing=_spacing_record(machine) if machine.controller.law in SPACED_LAWS else None,
+        operator=operator_record(machine.operator),
+        diagnostics=diagnostics_record(machine.diagnostics),
     )
     return as_stored(design)
 

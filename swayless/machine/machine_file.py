@@ -11,11 +11,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from swayless.controller.operator_options import OperatorOptions
 from swayless.errors import FileError
 from swayless.machine.axes import axis_documents, chosen_axis, merged_problems
 from swayless.machine.bank_section import MAX_ROWS, BankSection, read_bank, with_options
 from swayless.machine.checks import machine_name
 from swayless.machine.controller_section import ControllerSection, check_counts, law_of, read_controller
+from swayless.machine.diagnostics_section import NO_DIAGNOSTICS, DiagnosticsSection, read_diagnostics
 from swayless.machine.drive_section import DriveSection, read_drive
 from swayless.machine.following_row import (
     FAMILIES_OF_LAW,
@@ -25,6 +27,7 @@ from swayless.machine.following_row import (
     read_following_row,
 )
 from swayless.machine.move_section import MoveSection, read_moves
+from swayless.machine.operator_section import NO_FUNCTIONS, FunctionTables, read_operator
 from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
 from swayless.machine.problems import RefusedError, Report, Table, plain, shown
 from swayless.machine.row_section import Row, read_row
@@ -36,6 +39,7 @@ from swayless.plant import DrivenRopes
 MAX_BYTES = 1_000_000
 _PLANT_KINDS: tuple[PlantKind, ...] = ("crane", "arm")
 _ONE_OF = {"[crane] or [arm]": _PLANT_KINDS, "[[row]] or [bank]": ("row", "bank")}
+_FUNCTIONS = ("steps", "limits", "tuning")
 _AT_LINE = re.compile(r"(.*) \(at line (\d+), column (\d+)\)")
 _NAKED_QUANTITY = re.compile(r"=[^\"'#]*[0-9.]\s*[A-Za-z%]")
 
@@ -64,6 +68,10 @@ class Machine:
         What to simulate; often none.
     axis : str
         Which axis of the file this is; empty for a file without axes.
+    operator : OperatorOptions
+        What the operator touches besides command and knob; nothing unless asked for.
+    diagnostics : DiagnosticsSection
+        What the block says of itself besides its status.
     """
 
     name: str
@@ -75,6 +83,8 @@ class Machine:
     bank: BankSection | None = None
     moves: tuple[MoveSection, ...] = ()
     axis: str = ""
+    operator: OperatorOptions = NO_FUNCTIONS
+    diagnostics: DiagnosticsSection = NO_DIAGNOSTICS
 
     @property
     def driven_ropes(self) -> DrivenRopes | None:
@@ -271,11 +281,24 @@ def _read_machine(root: Table, source: str, bank_options: Mapping[str, object] |
     most_rows = MAX_ROWS if "bank" in root.raw else max(1, len(rows))
     unit = plant.positions.unit if plant is not None and plant.positions is not None else None
     moves = read_moves(kind, root, max_speed_m_s=speed_m_s, rows=most_rows, position_unit=unit)
-    for table in (root, plant_table, drive_table, controller_table):
+    tables = FunctionTables(drive_table, controller_table, *(_section(root, key, {}) for key in _FUNCTIONS))
+    by_rope = plant is None or law is None or _measures_rope(law, plant, root)
+    operator = read_operator(tables, drive, measures_rope=by_rope)
+    diagnostics = read_diagnostics(tables, plant, drive, law=law, measures_rope=by_rope)
+    for table in (root, plant_table, *tables):
         table.close()
     if name is None or plant is None or drive is None or controller is None:
         return None
-    return Machine(name, source, plant, drive, controller, rows, bank, moves)
+    return Machine(
+        name, source, plant, drive, controller, rows, bank, moves, operator=operator, diagnostics=diagnostics
+    )
+
+
+def _measures_rope(law: str, plant: PlantSection, root: Table) -> bool:
+    """Whether the block reads the length of a rope: for its taps, or to choose the row."""
+    bank = root.raw.get("bank")
+    chooses = isinstance(bank, dict) and bank.get("selection") == "rope_length"
+    return plant.kind == "crane" and (law in FAMILIES_OF_LAW or chooses)
 
 
 def _plant_kind(root: Table) -> PlantKind:

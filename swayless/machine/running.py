@@ -37,6 +37,7 @@ from swayless.machine.design_document import (
     SpacedTapsRecord,
     TapsRecord,
 )
+from swayless.machine.functions import with_functions
 from swayless.machine.phase_row import clock_of, taps_on_a_still_rope
 from swayless.machine.spaced_row import Followed, taps_at_the_slowest, typed_spacing
 from swayless.plant import Band, Mode
@@ -64,20 +65,25 @@ def shaper_settings(design: DesignFile, *, number: str | None = None) -> ShaperS
         raise ControllerError("the design has no tick: design it with --tick, for instance --tick '10 ms'")
     kind = number_type(number or design.number)
     if design.law == "phase":
-        return _phase_settings(design, kind)
+        return with_functions(_phase_settings(design, kind), design)
     if design.law in get_args(SpacingLaw):
-        return _spaced_settings(design, kind)
+        return with_functions(_spaced_settings(design, kind), design)
+    return with_functions(_fixed_settings(design, kind, design.tick_s), design)
+
+
+def _fixed_settings(design: DesignFile, kind: NumberType, tick_s: float) -> ShaperSettings:
+    """Make the constants of a block whose taps keep their delays in ticks."""
     rows = []
     for shaper in design.shapers:
         assert isinstance(shaper.taps, TapsRecord)  # noqa: S101 - the file has taps where it has a tick
         guarantee = _guarantee(shaper, shaper.taps.guarantee)
         delays, amplitudes = np.array(shaper.taps.delays_ticks), np.array(shaper.taps.amplitudes)
         try:
-            taps = quantised_taps(delays, amplitudes, design.tick_s, guarantee, kind)
+            taps = quantised_taps(delays, amplitudes, tick_s, guarantee, kind)
         except ControllerError as error:
             raise ControllerError(f'row "{shaper.name}": {error}') from error
         rows.append(Row(shaper.name, shaper.family, taps))
-    limits = command_limits(_speed_limits(design.drive, kind.is_integer), tick_s=design.tick_s, number=kind)
+    limits = command_limits(_speed_limits(design.drive, kind.is_integer), tick_s=tick_s, number=kind)
     if design.bank is None or design.bank.selection == "knob":
         return ShaperSettings(Bank(tuple(rows)), limits)
     return ShaperSettings(Bank(tuple(rows), _rope_rows(design, kind)), limits, _rope(design, kind))

@@ -114,6 +114,13 @@ def counting(values: tuple[int, ...]) -> str | None:
     return None if values == tuple(range(len(values))) else "must be 0, 1, 2 and so on"
 
 
+def around_zero(ends: tuple[float, float]) -> str | None:
+    """Rule: a range with 0 in it."""
+    return (
+        None if ends[0] <= 0.0 <= ends[1] else "must be the low end, at most 0, then the high end, at least 0"
+    )
+
+
 def sums_to_one(amplitudes: tuple[float, ...]) -> str | None:
     """Rule: the sum is 1, but for rounding."""
     total = sum(amplitudes)

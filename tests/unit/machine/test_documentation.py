@@ -13,6 +13,7 @@ from swayless.machine import (
     load_machine,
     machine_file,
     move_section,
+    operator_record,
 )
 from swayless.machine.bank_section import OptionedTable
 from swayless.machine.problems import Table
@@ -38,6 +39,9 @@ duration = 3
 rope_length = 5
 """
 """Rows whose families take keys that the documented rows do not have."""
+
+FUNCTIONS = ("[steps]", "[limits]", "[tuning]")
+"""Sections that share a page."""
 
 SAME_PAGE = {"[arm]": "[crane]"}
 
@@ -75,12 +79,16 @@ def test_every_key_of_the_machine_file_is_documented_in_its_section(
     section_pages = {"": "At the top", "[crane]": "`[crane]`", "[drive]": "`[drive]`"}
     section_pages |= {"[controller]": "`[controller]`", "[[row]]": "`[[row]]`", "[bank]": "`[bank]`"}
     section_pages |= {"[[move]]": "`[[move]]`"}
+    section_pages |= dict.fromkeys(FUNCTIONS, "`[steps]`")
     assert asked.keys() == section_pages.keys()
-    for section, keys in asked.items():
+    together = set().union(*(asked[section] for section in FUNCTIONS))
+    for section, keys in (asked | dict.fromkeys(FUNCTIONS, together)).items():
         page = next(page for page in pages if page.startswith(section_pages[section]))
         documented = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\|([^|]*)\|", page, re.MULTILINE))))
         sections_of_their_own = (
-            {"crane", "arm", "drive", "controller", "row", "bank", "move"} if not section else set()
+            {"crane", "arm", "drive", "controller", "row", "bank", "move", "steps", "limits", "tuning"}
+            if not section
+            else set()
         )
         assert keys - sections_of_their_own == documented
 
@@ -88,7 +96,12 @@ def test_every_key_of_the_machine_file_is_documented_in_its_section(
 def test_every_key_of_the_design_file_is_documented() -> None:
     page = (DOCS / "design-file.md").read_text(encoding="utf-8")
     documented = set(re.findall(r"^\| `(\w+)`", page, re.MULTILINE))
-    records = [value for value in vars(design_document).values() if isinstance(value, type)]
+    records = [
+        value
+        for module in (design_document, operator_record)
+        for value in vars(module).values()
+        if isinstance(value, type)
+    ]
     known = {key for cls in records if issubclass(cls, Record) for key in members(cls)}
     assert documented == known
 
