@@ -233,6 +233,8 @@ def _peaks(path: Path, asked: Asked, reading: Reading, stopwatch: list[Identifie
         with _named(path):
             mode, found = identify_peaks(at, height, peaks_per_swing=2 if asked.both_sides else 1)
         return Found(str(path), (mode,), decrement=found)
+    if are_times:
+        raise OptionError([f"{path}: heights over times show the period: leave --periods out"])
     if not stopwatch:
         raise OptionError([f"{path}: heights over counts of swings do not show the period: give --periods"])
     with _named(path):

@@ -25,10 +25,11 @@ def print_found(found: AllFound) -> None:
     found : AllFound
     """
     columns = ["frequency [Hz]", "period [s]", "damping ratio", "to be held [Hz]"]
-    columns += ["pendulum [m]"] if found.is_pendulum else []
+    with_rope = found.is_pendulum and all(len(each.modes) == 1 for each in found.records)
+    columns += ["pendulum [m]"] if with_rope else []
     several = len(found.records) > 1
     rows = [
-        [*([_rope(each)] if several else []), *_row(mode, with_rope=found.is_pendulum)]
+        [*([_rope(each)] if several else []), *_row(mode, with_rope=with_rope)]
         for each in found.records
         for mode in each.modes
     ]

@@ -110,8 +110,17 @@ def read_peaks(table: RecordTable, reading: Reading) -> tuple[FloatArray, FloatA
     ]
     problems += _time_problems(table, time_s, keep)
     refuse_lines(table.path, problems)
-    counted = reading.rate_hz is None and table.heads[_time_column(table, reading)].is_swing
-    return time_s[keep], height[keep], not counted
+    return time_s[keep], height[keep], reading.rate_hz is not None or not _are_counted(table, reading)
+
+
+def _are_counted(table: RecordTable, reading: Reading) -> bool:
+    """Whether peaks stand over counts of swings: by the head, or, if it says nothing, by whole or half numbers."""
+    column = _time_column(table, reading)
+    head = table.heads[column]
+    if head.is_swing or head.is_time or head.unit in TIME_UNITS:
+        return head.is_swing
+    halves = 2.0 * np.diff(table.values[:, column])
+    return bool((halves == np.round(halves)).all())
 
 
 def _columns(table: RecordTable, reading: Reading) -> tuple[int | None, FloatArray, int]:

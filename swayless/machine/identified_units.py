@@ -45,7 +45,9 @@ _BRACKETS = re.compile(r"(.*?)\s*[\[(]\s*(.*?)\s*[\])]\s*")
 _SLASH = re.compile(r"(.+?)\s*/\s*(\S+)")
 _SUFFIX = re.compile(r"(.+?)(?:_|\s+in\s+|\s+)([^_\s]+(?:_s2)?)")
 _TIME_NAMES = re.compile(r"t|time.*|zeit.*|temps.*|tiempo.*|tempo.*|timestamp.*", re.IGNORECASE)
-_SWING_NAMES = re.compile(r"n|k|(swing|cycle|peak|period)s?( *(number|count|no\.?|#))?", re.IGNORECASE)
+_SWING_NAMES = re.compile(
+    r"n|k|i|#|no\.?|index|(swing|cycle|peak|period)s?([ _]*(number|count|no\.?|#))?", re.IGNORECASE
+)
 _ROPE_NAMES = re.compile(r"(rope|cable|hoist|pendulum)([ _-]*(length|height))?|rope[ _-]*m", re.IGNORECASE)
 
 

@@ -192,6 +192,8 @@ def test_peaks_give_the_damping_and_a_stopwatch_the_period(run, tmp_path):
         "time_s,height_in\n" + "".join(f"{5.8 * k},{30.0 * 0.97**k}\n" for k in range(9))
     )
     assert found(run("identify", "timed.csv", "--peaks", "--json"))["period_s"] == pytest.approx(5.8)
+    done = run("identify", "timed.csv", "--peaks", "--periods", "5.8")
+    assert done.err == "error: timed.csv: heights over times show the period: leave --periods out\n"
 
 
 def test_the_fit_is_drawn(run, record, tmp_path):

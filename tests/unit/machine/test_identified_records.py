@@ -184,3 +184,20 @@ def test_peaks_are_read_over_times_or_swings(tmp_path):
         read_peaks(load_table(path), Reading())
     path.write_text("time_s;height_mm\n0,5;25\n1,5;24\n")
     assert read_peaks(load_table(path), Reading())[2]
+
+
+@pytest.mark.parametrize(
+    ("head", "steps", "are_times"),
+    [
+        ("", "1 2 3 5", False),
+        ("", "0 0.5 1.0 1.5", False),
+        ("", "0 5.83 11.7 17.4", True),
+        ("t,h\n", "0 6 12 18", True),
+        ("Cycle number,h\n", "0 1 2 3", False),
+        ("at [s],h\n", "0 6 12 18", True),
+    ],
+)
+def test_counts_of_swings_are_told_from_times(tmp_path, head, steps, are_times):
+    path = tmp_path / "peaks.csv"
+    path.write_text(head + "".join(f"{step},{20 - index}\n" for index, step in enumerate(steps.split())))
+    assert read_peaks(load_table(path), Reading())[2] is are_times
