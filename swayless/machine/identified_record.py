@@ -114,7 +114,7 @@ def read_peaks(table: RecordTable, reading: Reading) -> tuple[FloatArray, FloatA
 
 
 def _are_counted(table: RecordTable, reading: Reading) -> bool:
-    """Whether peaks stand over counts of swings: the head says so, or whole or half numbers do without one."""
+    """Whether peaks stand over counts of swings: the head says so, or else whole or half numbers do."""
     column = _time_column(table, reading)
     head = table.heads[column]
     if head.is_swing or head.is_time or head.unit in TIME_UNITS:
