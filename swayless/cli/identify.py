@@ -155,7 +155,7 @@ def identify(
     Examples
     --------
     swayless identify swing.csv
-    swayless identify swing.csv --column "angle [deg]" --start 12 --plot swing.svg --into crane.toml
+    swayless identify swing.csv --column "angle [deg]" --start 12 --into crane.toml
     swayless identify low.csv high.csv --rope-length 3 9
     swayless identify --periods 6.1 6.0 6.2
     """

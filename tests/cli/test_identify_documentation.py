@@ -41,6 +41,16 @@ def test_the_slowness_of_large_swings_is_that_of_the_pendulum(angle_deg, shown):
     assert shown.split(" degrees")[0] in PAGE
 
 
+@pytest.mark.parametrize("columns", [80, 110])
+def test_the_help_fits_the_terminal(run, monkeypatch, columns):
+    monkeypatch.setenv("COLUMNS", str(columns))
+    lines = run("identify", "--help").out.splitlines()
+    examples = [line for line in lines if line.startswith("    swayless identify ")]
+    assert len(examples) == 4
+    assert max(len(line) for line in lines if line not in examples) <= columns
+    assert max(map(len, examples)) <= 94
+
+
 def test_every_option_is_in_the_table_of_the_command_and_no_other():
     section = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8").partition("\n## identify\n")[2]
     rows = re.findall(r"^\| `(\S+)` \|", section.partition("\n## ")[0], re.MULTILINE)
