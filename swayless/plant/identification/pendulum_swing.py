@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from swayless.errors import PlantError
 from swayless.plant.identification.fitting import Fit, fit
 from swayless.plant.identification.record import Quantity, SwingRecord
 from swayless.plant.identification.swing_model import COSINE, DECAY, FREQUENCY, SINE
@@ -40,12 +41,24 @@ def as_pendulum(single: Fit, record: SwingRecord, pendulum: bool | None) -> tupl
     taken, other : Fit, Fit or None
         The fit to take, and the one that nobody has ruled out: neither the caller, nor the record, nor
         physics. None if there is no such.
+
+    Raises
+    ------
+    PlantError
+        If a pendulum is asked for that would swing beyond the horizontal.
     """
     waveform = WAVEFORMS.get(record.quantity)
     if waveform is None or pendulum is False:
         return single, None
     fastest_rad_s = 2.0 * np.pi * pendulum_frequency_hz(SHORTEST_ROPE_M)
     if pendulum is None and single.mode(0)[FREQUENCY] > fastest_rad_s:
+        return single, None
+    angle = waveform.angle_per_value(float(single.mode(0)[FREQUENCY])) * single.amplitude(0)
+    if angle >= np.pi / 2.0:
+        if pendulum:
+            raise PlantError(
+                f"a load on a rope would swing {np.degrees(angle):.3g} deg: must be below 90: check the unit"
+            )
         return single, None
     bent = _bent(single, record, waveform)
     if pendulum:

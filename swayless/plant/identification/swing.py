@@ -157,15 +157,16 @@ def _identified(
     record: SwingRecord, found: Fit, *, mixture: tuple[IdentifiedMode, ...] = ()
 ) -> IdentifiedSwing:
     """Give what a fit says; a mixture of modes that fits better, at one frequency, widens the uncertainty."""
-    noise = noise_near(found, 0)
     modes = _modes(record, found)
     if mixture:
         modes = (_widened(modes[0], mixture),)
-    swinging = [mode for mode in modes if _swings(mode, record)]
+    swinging = [index for index, mode in enumerate(modes) if _swings(mode, record)]
     if not swinging:
         raise PlantError(_no_swing(modes[0], record))
-    by_amplitude = sorted(swinging, key=lambda mode: -(mode.amplitude or 0.0))
-    return IdentifiedSwing(record, found, tuple(by_amplitude), noise, not mixture)
+    swinging.sort(key=lambda index: -found.amplitude(index))
+    by_amplitude = tuple(modes[index] for index in swinging)
+    bounded = _bounded(record, found)
+    return IdentifiedSwing(record, bounded, by_amplitude, noise_near(bounded, swinging[0]), not mixture)
 
 
 def _undecided(found: IdentifiedSwing, taken: Fit, other: Fit) -> IdentifiedSwing:
@@ -213,17 +214,24 @@ def _with_spread(mode: IdentifiedMode, frequency_hz: float, damping_ratio: float
     )
 
 
-def _modes(record: SwingRecord, found: Fit) -> tuple[IdentifiedMode, ...]:
-    """Turn a fit into modes with their uncertainty; damping below 0 is held at 0."""
-    covariance, indices = found.covariance(), range(found.model.modes)
-    noises = [noise_near(found, index) for index in indices]
-    decays = [PER_MODE * index + DECAY for index in indices]
+def _bounded(record: SwingRecord, found: Fit) -> Fit:
+    """Hold damping at 0 where it came out below."""
+    decays = [PER_MODE * index + DECAY for index in range(found.model.modes)]
     growing = tuple(index for index in decays if found.parameters[index] < 0.0)
-    if growing:
-        bounded = found.parameters.copy()
-        bounded[list(growing)] = 0.0
-        found = fit(found.model, record.value, bounded, held=growing)
-    return tuple(_mode(found, index, noises[index].scale ** 2 * covariance) for index in indices)
+    if not growing:
+        return found
+    bounded = found.parameters.copy()
+    bounded[list(growing)] = 0.0
+    return fit(found.model, record.value, bounded, held=growing)
+
+
+def _modes(record: SwingRecord, found: Fit) -> tuple[IdentifiedMode, ...]:
+    """Turn a fit into modes; what is uncertain is so as if damping could be below 0."""
+    covariance, bounded = found.covariance(), _bounded(record, found)
+    return tuple(
+        _mode(bounded, index, noise_near(found, index).scale ** 2 * covariance)
+        for index in range(found.model.modes)
+    )
 
 
 def _mode(found: Fit, index: int, covariance: FloatArray) -> IdentifiedMode:

@@ -61,6 +61,13 @@ def test_fast_angles_are_those_of_arms():
     assert (found.slowed_ratio, found.is_decided) == (0.0, True)
 
 
+def test_no_load_on_a_rope_swings_beyond_the_horizontal():
+    record = SwingRecord(TIME_S, Truth(FREQUENCY_HZ, 0.0, 3.0).swing(TIME_S), Quantity.angle)
+    assert identify_swing(record).slowed_ratio == 0.0
+    with pytest.raises(PlantError, match="would swing 172 deg: must be below 90: check the unit"):
+        identify_swing(record, pendulum=True)
+
+
 def test_a_pendulum_needs_a_unit():
     with pytest.raises(PlantError, match="say what unit the record is in"):
         identify_swing(SwingRecord(TIME_S, np.cos(TIME_S)), pendulum=True)
