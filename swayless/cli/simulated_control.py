@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swayless.controller import CommandShaper, ShaperInput, ShaperSettings
+from swayless.controller import CommandShaper, ShaperSettings
 from swayless.controller.rope import MM_PER_M
 from swayless.errors import ControllerError
+from swayless.machine.functions import undisturbed
 
 if TYPE_CHECKING:
     from swayless.machine.design_document import DriveRecord
@@ -132,20 +133,20 @@ def shaped_reference(
         References in m/s; after the last one they are 0.
     """
     shaper, per_m_s = CommandShaper(settings), settings.limits.units_per_m_s
-    released = ShaperInput(_scalar(settings, 0.0), knob)
+    released = undisturbed(settings)._replace(selector=knob)
     held = released._replace(command=_scalar(settings, speed_m_s * per_m_s))
     readings = _readings(settings, press, *rope)
     references: list[float] = []
-    for tick in count():
+    for tick in count(-1):  # the tick before the move is one of 0, for which some blocks wait
         inputs = held if press.first <= tick < press.last else released
         if readings:
-            length, speed = readings[min(tick, len(readings) - 1)]
+            length, speed = readings[min(max(tick, 0), len(readings) - 1)]
             inputs = inputs._replace(rope_length=length, hoist_speed=speed)
         output = shaper.step(inputs)
         references.append(float(output.reference))
         if tick >= max(press.last, len(readings)) and output.settled and output.reference == 0:
             break
-    return np.array(references) / per_m_s
+    return np.array(references[1:]) / per_m_s
 
 
 def _readings(

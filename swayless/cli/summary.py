@@ -6,85 +6,22 @@ Not for: proving any of it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from swayless.cli.bank_summary import switching
 from swayless.cli.console import interval, per_cent, print_line, print_table
 from swayless.cli.design_summary import bands, damping_ratios, proofs
+from swayless.cli.operator_summary import operator_document, operator_remarks
+from swayless.cli.ways import ways
 
 if TYPE_CHECKING:
-    from swayless.controller import ShaperOutput, ShaperSettings
+    from swayless.controller import ShaperSettings
     from swayless.machine import AnyTapsRecord, DesignFile, ShaperRecord
-
-MM_PER_M = 1000.0
-"""Stop distances of int32 blocks are in mm."""
 
 WAY_DIGITS = 9
 """Decimals of a way in m in a document: a nanometre."""
 
 STOPS_NOTE = "stop: way from full speed to rest once the button is released; quick: by a quick stop"
-
-
-class Ways(NamedTuple):
-    """Ways of the crane, in m: to rest from full speed, released or by a quick stop, and of the shortest jog.
-
-    The way of a stop counts from the tick in which the button is released or pressed; the shortest jog is a
-    press of full speed for one tick.
-    """
-
-    released_m: float
-    quick_m: float
-    jog_m: float
-
-
-def ways(settings: ShaperSettings, row: int) -> Ways:
-    """Ask the block's own reference for the ways of a row: on the longest rope, where the arm is slowest.
-
-    Parameters
-    ----------
-    settings : ShaperSettings
-        The block.
-    row : int
-        Position of the selector.
-    """
-    from swayless.controller import CommandShaper, ShaperInput
-
-    shaper = CommandShaper(settings)
-    limits = settings.limits
-    rope = _slowest(settings)
-    selector, by_rope = row, settings.bank.by_rope
-    if by_rope is not None and row > 0:
-        selector, rope = 1, by_rope.upper[row - 1]
-    full = ShaperInput(command=limits.max_command, selector=selector, rope_length=rope)
-    ramp_ticks = int(limits.max_command / limits.acceleration_step) + 2
-    first = steady = shaper.step(full)
-    for _ in range(ramp_ticks + 2 * settings.longest_delay_ticks + 2):
-        steady = shaper.step(full)
-    quick = shaper.step(full._replace(quick_stop=True))
-    return Ways(
-        released_m=_still_to_go_m(settings, steady),
-        quick_m=_still_to_go_m(settings, quick) + _way_of_tick_m(settings, quick),
-        jog_m=_still_to_go_m(settings, first) + _way_of_tick_m(settings, first),
-    )
-
-
-def _slowest(settings: ShaperSettings) -> Any:
-    """Rope, or position, at which the shaping takes longest; 0 where nothing is measured."""
-    from swayless.controller.spaced_taps import SpacedTaps
-
-    taps = settings.bank.rows[0].taps
-    if isinstance(taps, SpacedTaps):
-        spacing = taps.spacing
-        return spacing.starts[spacing.ticks.index(spacing.most)]
-    return 0 if settings.rope is None else settings.rope.longest
-
-
-def _still_to_go_m(settings: ShaperSettings, output: ShaperOutput) -> float:
-    return float(output.stop_distance) / (MM_PER_M if settings.number.is_integer else 1.0)
-
-
-def _way_of_tick_m(settings: ShaperSettings, output: ShaperOutput) -> float:
-    return float(output.reference) / settings.limits.units_per_m_s * settings.tick_s
 
 
 def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
@@ -97,8 +34,8 @@ def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
     settings : ShaperSettings
         Its block.
     """
-    held = "rope [m]" if _on_rope(design) else "range [Hz]"
-    columns = ["knob", "row", "family", "leaves", held, "time [s]", "stop [m]", "quick [m]"]
+    place = "rope [m]" if _on_rope(design) else "range [Hz]"
+    columns = ["knob", "row", "family", "leaves", place, "time [s]", "stop [m]", "quick [m]"]
     unshaped = ways(settings, 0)
     rows = [["0", "unshaped", "-", "-", "-", "0", f"{unshaped.released_m:.3f}", f"{unshaped.quick_m:.3f}"]]
     for knob, shaper in enumerate(design.shapers, start=1):
@@ -110,7 +47,7 @@ def print_summary(design: DesignFile, settings: ShaperSettings) -> None:
     who = "each position of the knob guarantees" if knob_turns else "each row guarantees; the rope chooses"
     print_table(f"{design.name}: what {who}", columns, rows)
     print_line(STOPS_NOTE)
-    for line in (*_robust_remarks(design), *_remarks(design, settings)):
+    for line in (*_robust_remarks(design), *_remarks(design, settings), *operator_remarks(settings)):
         print_line(line)
 
 
@@ -199,7 +136,7 @@ def summary_document(design: DesignFile, settings: ShaperSettings) -> dict[str, 
         "not_held_rope_length_m" if _on_rope(design) else "not_held_hz": _gaps(design) if ranged else []
     }
     bank = {"bank": None if design.bank is None else document_of(design.bank)}
-    rows = {"rows": [unshaped, *shaped]}
+    rows = {"rows": [unshaped, *shaped], "operator": operator_document(settings)}
     return {"name": design.name, "number": settings.number.name, **rows, **not_held, **bank}
 
 

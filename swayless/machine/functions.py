@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from swayless.controller import ShaperSettings, operator_settings
+from swayless.controller import ShaperInput, ShaperSettings, operator_settings
 from swayless.controller.diagnostics import Diagnostics
 from swayless.controller.rope_bound import rope_bounds
 from swayless.controller.sway import sway_settings
@@ -45,6 +45,30 @@ def with_functions(settings: ShaperSettings, design: DesignFile) -> ShaperSettin
         return settings
     facts = design_facts(settings, design_id(design))  # of every table, so after all the others
     return replace(settings, diagnostics=replace(settings.diagnostics, facts=facts))
+
+
+def undisturbed(settings: ShaperSettings) -> ShaperInput:
+    """Give inputs at which only the command moves the machine: far from every end, on the longest rope.
+
+    A block that waits for a command of 0 has seen one after a tick of these.
+
+    Parameters
+    ----------
+    settings : ShaperSettings
+        The block.
+    """
+    zero, way = settings.number.scalar(0), settings.operator.way
+    far = zero if way is None else way.farthest + way.margin
+    return ShaperInput(
+        command=zero,
+        rope_length=zero if settings.rope is None else settings.rope.longest,
+        hoist_speed=zero,
+        distance_forward=far,
+        distance_reverse=far,
+        actual_speed=zero,
+        speed_limit=settings.limits.max_command,
+        rope_offset=zero,
+    )
 
 
 def _diagnostics(settings: ShaperSettings, record: DiagnosticsRecord) -> Diagnostics:
