@@ -13,7 +13,7 @@ import swayless
 from swayless.cli.app import app
 from swayless.cli.design_options import COMMANDS as DESIGN_COMMANDS
 
-COMMANDS = ["init", "design", "plot", "simulate", "generate", "verify", "build"]
+COMMANDS = ["init", "design", "plot", "simulate", "identify", "generate", "verify", "build"]
 OF_DESIGN = ["FAMILY", *DESIGN_COMMANDS]
 ALL = [*COMMANDS, *(f"design {name}" for name in OF_DESIGN)]
 ROOT = Path(__file__).parents[2]
