@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from swayless.cli.summary import ways
+from swayless.cli.ways import ways
 from swayless.machine import example_text, load_design
 from swayless.machine.running import shaper_settings
 
