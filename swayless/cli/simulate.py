@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from swayless.cli.options import JsonOption
+from swayless.cli.options import AxisOption, JsonOption, OptionError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -79,6 +79,7 @@ def simulate(
     sweep: SweepOption = None,
     row: RowOption = None,
     within: WithinOption = "50 mm",
+    axis: AxisOption = None,
     output: DirectoryOption = None,
     json: JsonOption = False,
 ) -> None:
@@ -102,7 +103,7 @@ def simulate(
     spoken: dict[str, Any] = {"move": move, "hoist": hoist, "sweep": sweep, "wind": wind}
     spoken |= {"rope_length": rope_length, "frequency": frequency, "position": position}
     with progress() as show:
-        design, of_file = _design(file, show)
+        design, of_file = _design(file, axis, show)
         settings = shaper_settings(design)
         pendulum = _pendulum_settings(design)
         moves, within_m = _moves(design, settings.last_selector, of_file, spoken, row, within)
@@ -122,14 +123,18 @@ def simulate(
         typer.echo(f"{path}: written")
 
 
-def _design(file: Path, show: Callable[[str], None]) -> tuple[DesignFile, tuple[MoveSection, ...]]:
+def _design(
+    file: Path, axis: str | None, show: Callable[[str], None]
+) -> tuple[DesignFile, tuple[MoveSection, ...]]:
     """Load a design, or make that of a machine; give the moves that its file describes."""
     from swayless.machine import load_design, load_machine
     from swayless.machine.designing import design_machine
 
     if file.suffix == ".json":
+        if axis is not None:
+            raise OptionError(["--axis: a design file is of one axis; give it for a machine file"])
         return load_design(file), ()
-    machine = load_machine(file)
+    machine = load_machine(file, axis=axis)
     return design_machine(machine, on_row=lambda name: show(f"designing {name}")), machine.moves
 
 

@@ -316,6 +316,8 @@ def test_a_plain_ramp_is_straight_and_goes_as_far_as_the_press(held, ticks):
 def test_what_the_page_shows_is_what_the_command_prints(run):
     shown = re.findall(r"```sh\n(.*?)```\n\n(?:```text\n(.*?)```)?", PAGE, re.DOTALL)
     assert len(shown) >= 3
+    for name, text in re.findall(r"```toml\n# (\S+\.toml)\n(.*?)```", PAGE, re.DOTALL):
+        Path(name).write_text(text)
     for lines, output in shown:
         for line in lines.splitlines():
             done = run(*shlex.split(line, comments=True)[1:])
