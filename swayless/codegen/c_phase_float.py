@@ -24,7 +24,6 @@ def float_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant]:
     assert settings.clock is not None  # noqa: S101 - only a phase clock has these constants
     scalar, clock, largest = types.number.scalar, settings.clock, settings.limits.max_command
     constants = [
-        ("SPANS_PER_METRE", clock.cells_per_unit, "spans of the table per m of rope"),
         ("QUANTUM_RAD", clock.quantum_rad, "rad: phase of a quantum"),
         ("KICK_PER_QUANTUM", hoist.kick_per_quantum(settings), "QUANTUM_RAD / (9.80665 m/s2 tick)"),
         ("PER_MOST", 1.0 / clock.most_quanta, "1 / quanta of a tick on the shortest rope"),

@@ -6,7 +6,6 @@ from swayless.codegen.c_phase_float import ANSWER_DOC, LEAN_DOC
 from swayless.codegen.c_types import CConstant, CTable, CTypes, c_table
 from swayless.controller.hoist_answers import leaning_from
 from swayless.controller.hoist_int32 import LARGEST_SWING, LARGEST_WANTED, ONE, IntegerHoist
-from swayless.controller.phase_clock import FRACTION_BITS
 from swayless.controller.phase_filter_int32 import command_shift
 from swayless.controller.settings import ShaperSettings
 
@@ -32,10 +31,8 @@ def integer_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant
     types : CTypes
         Its types.
     """
-    assert settings.clock is not None  # noqa: S101 - only a phase clock has these constants
-    hoist, spans = integer_hoist(settings), settings.clock.cells_per_unit
+    hoist = integer_hoist(settings)
     return [
-        CConstant("uint64_t", "SPANS_PER_MM", f"UINT64_C({spans})", "spans of the table per mm, over 2^32"),
         *(CConstant("uint32_t", name, f"{value}u", doc) for name, value, doc in _counters(hoist)),
         CConstant(
             "uint64_t",
@@ -58,9 +55,6 @@ def integer_constants(settings: ShaperSettings, types: CTypes) -> list[CConstant
 
 def _counters(hoist: IntegerHoist) -> list[tuple[str, int, str]]:
     return [
-        ("SPAN_SHIFT", 32 - FRACTION_BITS, "from there to places in the table"),
-        ("SHARE_BITS", FRACTION_BITS, "bits of a place within a span"),
-        ("SHARE_HALF", 1 << (FRACTION_BITS - 1), "rounds to the nearest quantum"),
         ("RATIO_SHIFT", hoist.inverse_shift - 30, "from quanta times a reciprocal to 2^30"),
         ("TICKS_SHIFT", hoist.inverse_shift - 31, "from there over 2^31 to ticks"),
     ]
