@@ -148,5 +148,9 @@ class CClock:
 
     @property
     def c_command(self) -> str:
-        """The checked command as it is, for the phase clock on the grid, where its parts add exactly."""
-        return f"{self._name}_on_grid(command)" if self._is_phase and not self._is_integer else "command"
+        """The checked command; see `c_on_grid`."""
+        return self.c_on_grid("command")
+
+    def c_on_grid(self, command: str) -> str:
+        """Take a command as it is, for the phase clock on the grid, where its parts add exactly."""
+        return f"{self._name}_on_grid({command})" if self._is_phase and not self._is_integer else command

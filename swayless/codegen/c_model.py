@@ -6,10 +6,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from swayless.codegen.c_checksum import CChecked
 from swayless.codegen.c_clock import CClock
+from swayless.codegen.c_options import COptions
 from swayless.codegen.c_rope import c_said
 from swayless.codegen.c_state import CState
 from swayless.codegen.c_tables import CTables
+from swayless.codegen.c_templates import source_templates
 from swayless.codegen.c_types import CTypes
 from swayless.codegen.clock_names import ClockNames, clock_names
 from swayless.codegen.features import Features, features_of
@@ -132,10 +135,20 @@ class CModel:
         """Parts of the law in use."""
         return features_of(self.settings)
 
+    @cached_property
+    def options(self) -> COptions:
+        """What depends on functions that only some blocks have."""
+        return COptions(self.settings, self.types, self.features)
+
+    @cached_property
+    def checked(self) -> CChecked:
+        """The check of the tables, where the block has one."""
+        return CChecked(self.settings, self.types, self.data.tables)
+
     @property
-    def glide_template(self) -> str:
-        """Template of the closed form of a ramp for the number type."""
-        return "c/glide_int32.c.j2" if self.is_integer else "c/glide_float.c.j2"
+    def templates(self) -> list[str]:
+        """Templates of the source after its constants, in order."""
+        return source_templates(self.features, self.clock.filter_templates, is_integer=self.is_integer)
 
     @property
     def tick_s_literal(self) -> str:
@@ -161,7 +174,7 @@ class CModel:
     def error_mask(self) -> str:
         """Bits that raise `error`."""
         names = [bit.name for bit in self.settings.status_bits if bit & ERROR_BITS]
-        mark = "\n        | " if self.features.has_rope else " | "
+        mark = " | " if len(names) == 2 else "\n        | "
         return "(" + mark.join(f"{self.macro}_SHAPER_{name}" for name in names) + ")"
 
     @property
@@ -198,6 +211,8 @@ class CModel:
     @property
     def init_cost(self) -> str:
         """Work of the first call."""
+        if self.features.has_facts:
+            return "O(numbers of the tables)"
         return "O(cells of the ring)" if self.features.spacing_law == "original" else "O(1)"
 
     @property
@@ -235,6 +250,13 @@ class CModel:
         limits = self.settings.limits
         ramp_ticks = int(limits.max_command / limits.acceleration_step) + 1
         return ramp_ticks + self.settings.longest_delay_ticks
+
+    @property
+    def example_pressed(self) -> str:
+        """When the example presses; where a command counts only after a 0, not in the first tick."""
+        waits = self.features.starts_from_zero or self.features.has_feedback
+        press = f"(tick < {self.example_press_ticks}u)"
+        return f"((tick > 0u) && {press})" if waits else press
 
     @property
     def example_ticks(self) -> int:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from swayless.codegen.c_diagnostics import diagnostic_members
+from swayless.codegen.c_operator import operator_flags, operator_sums
 from swayless.codegen.c_phase_state import phase_cells, phase_members, phase_ring, ring_length
 from swayless.codegen.c_rope import c_said, rope_members
 from swayless.codegen.c_spacing import spacing_flags, spacing_members, spacing_ring
@@ -50,7 +52,10 @@ class CState:
         self.cells = [] if settings.clock is None else phase_cells(settings, types)
         rope = [] if settings.rope is None else rope_members(settings.rope, types)
         sums, commands = self._sums(features), self._commands(features)
-        self.members = [*sums, *commands, *rope, *self._buffers(features), *self._flags(features)]
+        operator = operator_sums(settings, types, features)
+        told = diagnostic_members(settings, types)
+        self.members = [*sums, *commands, *rope, *operator, *told, *self._buffers(features)]
+        self.members += [*self._flags(features), *operator_flags(features)]
 
     def _member(self, pin: Pin) -> CField:
         types = {"bool": "bool", "real": self._types.real, "row": "uint8_t", "word": "uint32_t"}
@@ -87,7 +92,7 @@ class CState:
         clock, still = self._clock, f"{self._settings.longest_lag}u"
         still_doc = f"{clock.unit} without change, up to the longest {clock.lag}"
         return [
-            CField(self._types.input, "input", "last inputs"),
+            *([CField(self._types.input, "input", "last inputs")] if features.can_idle else []),
             CField(self._types.output, "output", "last outputs"),
             *self._ring(features),
             CField("uint32_t", "head", "cell of the newest command", "", f"{self._last}u"),
@@ -111,7 +116,7 @@ class CState:
         names = [
             *self._running_flags(features),
             ("foretold", "settled, and the stop is foretold"),
-            ("idle", "the last tick began and ended settled"),
+            *([("idle", "the last tick began and ended settled")] if features.can_idle else []),
             ("zero_commanded", "the command is a valid 0"),
             ("invalid", "a command was not finite"),
             ("quick", "quick stop is latched"),

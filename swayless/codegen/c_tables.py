@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from swayless.codegen.c_diagnostics import diagnostic_constants, diagnostic_tables
+from swayless.codegen.c_operator import operator_constants
 from swayless.codegen.c_phase_tables import phase_constants, phase_tables
 from swayless.codegen.c_rope import rope_constants, rope_row_tables
 from swayless.codegen.c_spacing import spacing_constants, spacing_tables
@@ -58,7 +60,9 @@ class CTables:
         constants += self._integer_constants(units) if self._is_integer else self._float_constants(units)
         constants += rope_constants(settings.rope, self._types) if settings.rope is not None else []
         constants += spacing_constants(settings) if self._features.has_spacing else []
-        return constants + (phase_constants(settings, self._types) if settings.clock is not None else [])
+        constants += phase_constants(settings, self._types) if settings.clock is not None else []
+        constants += operator_constants(settings, self._types, self._features)
+        return constants + diagnostic_constants(settings, self._types)
 
     def _float_constants(self, units: OutputUnits) -> list[CConstant]:
         real = self._types.real
@@ -163,9 +167,8 @@ class CTables:
         if self._features.has_rope_rows:
             tables += rope_row_tables(self._settings.bank.by_rope, self._types)
         tables += spacing_tables(self._settings, self._types) if self._features.has_spacing else []
-        return tables + (
-            phase_tables(self._settings, self._types) if self._settings.clock is not None else []
-        )
+        tables += phase_tables(self._settings, self._types) if self._settings.clock is not None else []
+        return tables + diagnostic_tables(self._settings, self._types)
 
     def _lag_tables(self) -> list[CTable]:
         """List the lag of each tap; multiples of a spacing need no table."""

@@ -69,6 +69,10 @@ class CTypes:
         """Literal of the number type."""
         return c_literal(value, self.number)
 
+    def wide(self, value: Any) -> str:
+        """Literal of the type of sums."""
+        return f"INT64_C({int(value)})" if self.number.is_integer else self.literal(value)
+
 
 @dataclass(frozen=True)
 class CField:

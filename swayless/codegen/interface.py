@@ -101,7 +101,7 @@ def output_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     units = settings.limits.units
     bound = "residual vibration that the row guarantees; all of it when unshaped"
     if settings.diagnostics.rope_bounds is not None:
-        bound = "residual vibration that the row leaves at most on the rope of now; all of it when unshaped"
+        bound = "residual vibration that the row leaves at most on this rope; all of it when unshaped"
     pins: tuple[Pin, ...] = (
         Pin("reference", "reference", "Reference", "real", "speed for the drive", units, "counts"),
         Pin(

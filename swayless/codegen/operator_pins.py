@@ -30,7 +30,7 @@ def operator_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
         slow = "true: the slow-down switch before that end is made; commands towards it are limited"
         pins += [pin("slow_forward", "bool", slow), pin("slow_reverse", "bool", slow)]
     if operator.way is not None:
-        left = "way left to that end, as measured when the tick begins; the crane stops before it"
+        left = "way left to that end when the tick begins; the crane stops before it"
         whole = settings.number.is_integer
         pins += [
             length_pin("distance_forward", left, is_integer=whole),
@@ -92,7 +92,7 @@ def diagnostic_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     """
     diagnostics, pins = settings.diagnostics, []
     if diagnostics.sway is not None:
-        doc = "where the load hangs by the linear model, ahead of the trolley: predicted, not measured"
+        doc = "where the linear model has the load, ahead of the trolley; not measured"
         pins.append(length_pin("predicted_sway", doc, is_integer=settings.number.is_integer))
     if diagnostics.facts is not None:
         doc = "CRC-32 of the design file: which design the block runs"
