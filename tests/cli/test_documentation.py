@@ -95,6 +95,35 @@ def test_every_option_is_in_the_table_of_its_command_and_no_other(command):
     assert documented == names
 
 
+FULL = """name = "full"
+[crane]
+rope_length = [3, 9]
+hoist_speed = 0.25
+max_speed = 0.5
+acceleration = 0.3
+[controller]
+tick = 0.02
+law = "phase"
+predicted_sway = true
+design_check = true
+[drive]
+counts_per_m_s = 100000
+feedback = true
+tracking_tolerance = 0.05
+[steps]
+sizes = [0.05, 0.1, 0.25]
+[limits]
+stop_switches = true
+slow_speed = 0.1
+margin = 0.3
+[tuning]
+speed_limit = true
+rope_offset = [-0.5, 0.5]
+[[row]]
+name = "any rope"
+family = "zvd"
+"""
+
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 
 
@@ -132,6 +161,25 @@ def test_the_pin_tables_are_those_of_the_generators(workshop):
     kinds |= {"row": ("uint8_t", "DINT"), "word": ("uint32_t", "DINT")}
     for row, pin in zip([*inputs, *outputs], [*input_pins(settings), *output_pins(settings)], strict=True):
         assert tuple(row[2:4]) == kinds[pin.kind]
+
+
+def tables(section, first_head):
+    """Cells of every table of a section that begins with a head, one below the other."""
+    found = re.findall(rf"^\| {re.escape(first_head)} \|.*\n\|[-|]+\n(?:\|.*\n)+", section, re.MULTILINE)
+    return [row for table in found for row in cells(table, first_head)]
+
+
+@pytest.mark.parametrize("number", ["double", "int32"])
+def test_the_tables_of_optional_pins_are_those_of_a_block_that_has_every_function(tmp_path, number):
+    (tmp_path / "full.toml").write_text(FULL)
+    settings = shaper_settings(design_machine(load_machine(tmp_path / "full.toml")), number=number)
+    places = (BLOCK.partition("## Inputs")[2].partition("## Outputs")[0], BLOCK.partition("## Outputs")[2])
+    for place, pins in zip(places, (input_pins(settings), output_pins(settings)), strict=True):
+        rows = tables(place.partition("\n## ")[0], "C")
+        names = [(re.search(r"named `(\w+)", " | ".join(row)) or [0, row[0]])[1] for row in rows]
+        names = names if number == "int32" else [row[0] for row in rows]
+        assert names == [pin.c_name for pin in pins]
+        assert [row[1] for row in rows] == [pin.st_name for pin in pins]
 
 
 class Trolley:
