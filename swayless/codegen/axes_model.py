@@ -169,6 +169,16 @@ class AxesModel:
         return "" if rope is None else rope.measured.c_valid
 
     @property
+    def c_example_inputs(self) -> dict[str, str]:
+        """Inputs of the example that are not 0 when nothing is touched: names in the pendant, and values."""
+        found = {}
+        for block, model in zip(self.blocks, self.c_models, strict=True):
+            shared = {pin.c_name for pin in block.shared_pins}
+            for name, value in model.options.example_inputs:
+                found[name if name in shared else f"{block.axis}_{name}"] = value
+        return found
+
+    @property
     def c_real(self) -> str:
         """Type of shared numbers."""
         return CTypes(self.blocks[0].name, self.blocks[0].settings.number).real
