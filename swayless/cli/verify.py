@@ -225,7 +225,7 @@ def _stored(directory: Path) -> tuple[list[tuple[DesignFile, ShaperSettings, Cod
 
     designs = [load_design(path) for path in sorted(directory.glob("*.design.json"))]
     if not designs:
-        found = "holds no file *.design.json"
+        found = "holds 0 files *.design.json"
         raise FileError([f"{directory}: {found}; give a directory that `build` wrote, or a design file"])
     files = {name: _code(directory / name) for name in TARGETS}
     if not any(files.values()):
@@ -235,15 +235,23 @@ def _stored(directory: Path) -> tuple[list[tuple[DesignFile, ShaperSettings, Cod
     wired = files
     blocks = []
     for design in designs:
-        own = {
-            target: tuple(file for file in made if f"{design.name}_" in file.path)
-            for target, made in files.items()
-        }
+        own = {target: _of_axis(design.name, made) for target, made in files.items()}
         wired = {
             target: tuple(file for file in made if file not in own[target]) for target, made in wired.items()
         }
         blocks.append((design, shaper_settings(design), own))
-    return blocks, {target: made for target, made in wired.items() if made}
+    wiring = {target: made for target, made in wired.items() if made}
+    if not wiring or not all(any(own.values()) for _, _, own in blocks):
+        found = (
+            f"holds {len(designs)} files *.design.json, but not the code of all and the wiring of these axes"
+        )
+        raise FileError([f"{directory}: {found}; give a directory that `build` wrote, or a design file"])
+    return blocks, wiring
+
+
+def _of_axis(name: str, files: tuple[GeneratedFile, ...]) -> tuple[GeneratedFile, ...]:
+    """Files of the block of one axis."""
+    return tuple(file for file in files if f"{name}_" in file.path)
 
 
 def _code(folder: Path) -> tuple[GeneratedFile, ...]:

@@ -111,5 +111,5 @@ def test_a_directory_that_lost_a_design_is_refused(run, built: Path) -> None:
     for design in built.glob("*.design.json"):
         design.unlink()
     done = run("verify", "crane")
-    assert (done.code, "holds no file *.design.json" in done.err) == (2, True)
+    assert (done.code, "holds 0 files *.design.json" in done.err) == (2, True)
     shutil.rmtree(built)
