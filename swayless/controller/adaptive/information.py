@@ -16,6 +16,9 @@ Coefficients: TypeAlias = tuple[Any, Any, Any]
 LEAST_DETERMINANT = 2.0**-14
 """Relative: below it the samples do not tell the coefficients apart, in double or in float."""
 
+NEWTON_STEPS = 8
+"""After them the noise is right to rounding where a window teaches, and to 4 % where all is noise."""
+
 ANCHOR = 24.0
 """Added and taken away again, it leaves whole multiples of 2**-48 in double, of 2**-19 in float."""
 
@@ -129,17 +132,37 @@ def on_lattice(coefficients: Coefficients) -> Coefficients:
 
 
 def noise_power(window: Information) -> Any:
-    """Sum of squares of the white noise in a window, or None if its samples do not tell.
+    """Sum of squares of the white noise in each of the three samples of a window.
 
-    A vibration of one mode fills two dimensions of three: what is in the third is noise. The coefficients
-    that leave least are found with the noise in, and once more with that estimate of it taken away.
+    A vibration of one mode fills two dimensions of three: what is in the third is noise, the least eigenvalue
+    of the samples' matrix. Newton's method on the characteristic polynomial comes to it from below.
+
+    Examples
+    --------
+    >>> nothing = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    >>> window = nothing.with_sample(1.0, 0.0, -1.0).with_sample(0.0, 2.0, 0.0)
+    >>> noise_power(window), round(noise_power(window.with_white(0.5)), 12)
+    (0.0, 0.5)
     """
-    first = window.fit()
-    if first is None:
-        return None
-    noise = window.left_by(first) / squared_size(first)
-    second = window.with_white(-noise).fit()
-    if second is None:
-        return noise
-    again = window.left_by(second) / squared_size(second)
-    return min(again, noise)
+    trace, minors, determinant = _invariants(window)
+    noise = 0.0 * trace
+    for _ in range(NEWTON_STEPS):
+        value = (((noise - trace) * noise) + minors) * noise - determinant
+        slope = (((3.0 * noise) - (trace + trace)) * noise) + minors
+        if slope > 0.0 and value < 0.0:
+            noise = noise - (value / slope)
+    return noise
+
+
+def _invariants(window: Information) -> tuple[Any, Any, Any]:
+    """Trace, sum of the principal minors and determinant of the sums of v v'."""
+    uu, uw, ww, vu, vw, vv = window
+    trace = window.energy
+    first, last = (vv + (vu + vu)) + uu, (vv + (vw + vw)) + ww
+    across = ((vv + vu) + vw) + uw
+    middle = ((uu * vv) - (vu * vu)) + ((ww * vv) - (vw * vw))
+    minors = middle + ((first * last) - (across * across))
+    determinant = ((vv * ((uu * ww) - (uw * uw))) - (vu * ((vu * ww) - (uw * vw)))) + (
+        vw * ((vu * uw) - (uu * vw))
+    )
+    return trace, minors, determinant

@@ -86,7 +86,7 @@ class Learner:
     def _judge(self, window: Information, in_use: bool) -> None:
         """Learn from a complete window, or find that there is nothing to learn from."""
         energy, noise = window.energy, noise_power(window)
-        teaches = noise is not None and energy > self._dead_zone and energy > (3.0 * NOISE_FACTOR) * noise
+        teaches = energy > self._dead_zone and energy > (3.0 * NOISE_FACTOR) * noise
         self.is_frozen = not teaches
         if teaches:
             weight = self._past_weight(window, energy, noise)

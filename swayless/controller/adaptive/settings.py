@@ -15,7 +15,7 @@ LARGEST_COSINE = 0.95
 LARGEST_PEAK_FACTOR = 8.0
 """Beyond it coefficients would leave the lattice on which their sum is exact; no drive has that to spare."""
 
-SHORTEST_WINDOW_TICKS, DELAYS_PER_WINDOW = 32, 8
+SHORTEST_WINDOW_TICKS, DELAYS_PER_WINDOW = 64, 8
 """Noise is told from vibration over so many samples, and over so much of a period: see decision 27."""
 
 LONGEST_TICKS = 1_000_000

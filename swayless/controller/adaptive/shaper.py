@@ -11,7 +11,7 @@ from swayless.controller.adaptive.settings import AdaptiveSettings
 from swayless.controller.adaptive.status import AdaptiveStatus
 from swayless.controller.finite import is_finite
 
-LARGEST_VIBRATION = 1000.0
+LARGEST_VIBRATION = 100.0
 """In units of `vibration_scale`: larger readings count as invalid, so that no sum can overflow."""
 
 # Plain integers: the flag type is an order of magnitude slower, and this runs millions of times.

