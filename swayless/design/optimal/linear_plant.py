@@ -1,0 +1,209 @@
+"""A linear plant with one input and one output, in state space. Not for: ticks (`sampling`), or commands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from swayless.design.shaper import FloatArray
+from swayless.errors import DesignError
+
+ComplexArray = NDArray[np.complex128]
+
+LARGEST_ORDER = 20
+"""Most states of a plant: beyond it, poles from coefficients in double are noise."""
+
+_ON_AXIS = 1e-6  # of the fastest pole: what a double pole at 0 is moved by rounding, and more
+_RINGS = 0.1  # sine of a pole's angle above which it rings: below a damping ratio of 0.995
+_LOST = 1e-9  # of the largest singular value: below it a direction is not there
+_BLOCKED = 1e-12  # of the outputs of a state of size 1: below it an output at rest is rounding
+
+
+@dataclass(frozen=True, eq=False)
+class LinearPlant:
+    """A plant x' = A x + B u, y = C x + D u.
+
+    Parameters
+    ----------
+    a : ndarray, shape (n, n)
+        In 1/s; 1 <= n <= 20.
+    b, c : ndarray, shape (n,)
+        Input and output of the states.
+    d : float
+        What the input adds to the output at once.
+
+    Raises
+    ------
+    DesignError
+        If shapes do not fit or a value is not finite.
+
+    Examples
+    --------
+    A frictionless mass of 2 kg, a force in and its position out:
+
+    >>> LinearPlant([[0.0, 1.0], [0.0, 0.0]], [0.0, 0.5], [1.0, 0.0]).equilibrium(3.0)
+    (array([3., 0.]), 0.0)
+    """
+
+    a: FloatArray
+    b: FloatArray
+    c: FloatArray
+    d: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("a", "b", "c"):
+            object.__setattr__(self, name, _finite(name, getattr(self, name)))
+        order = self.b.size
+        if not 1 <= order <= LARGEST_ORDER:
+            raise DesignError(f"plant of {order} states: must have 1 to {LARGEST_ORDER}")
+        shapes = {"a": self.a.shape, "b": self.b.shape, "c": self.c.shape}
+        if list(shapes.values()) != [(order, order), (order,), (order,)]:
+            raise DesignError(f"plant of shapes {shapes}: must be a (n, n), b (n,) and c (n,)")
+        object.__setattr__(self, "d", float(_finite("d", self.d)))
+
+    @classmethod
+    def from_transfer_function(cls, numerator: Sequence[float], denominator: Sequence[float]) -> LinearPlant:
+        """Make the plant of a transfer function; coefficients fall in powers of s.
+
+        Parameters
+        ----------
+        numerator, denominator : sequence of float
+            Finite; the numerator has no higher power than the denominator, which has one of s at least.
+
+        Raises
+        ------
+        DesignError
+            If they are no transfer function of a plant with memory.
+
+        Examples
+        --------
+        >>> plant = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0])
+        >>> abs(plant.poles_rad_s)
+        array([10., 10.])
+        """
+        top, bottom = (
+            np.trim_zeros(np.atleast_1d(_finite(name, value)), "f")
+            for name, value in (("numerator", numerator), ("denominator", denominator))
+        )
+        if bottom.size < 2 or top.size == 0 or top.size > bottom.size:
+            raise DesignError(
+                f"transfer function {list(numerator)!r} / {list(denominator)!r}: must have a numerator"
+                " that is not 0 and of no higher power of s than the denominator, and that one s at least"
+            )
+        # In units of the poles' own speed, so that coefficients, and states, are of order 1; a power of two,
+        # so that nothing is rounded.
+        roots = np.roots(bottom)
+        moving = np.abs(roots[np.abs(roots) > 0.0])
+        speed_rad_s = float(2.0 ** np.round(np.log2(moving).mean())) if moving.size else 1.0
+        powers = speed_rad_s ** np.arange(bottom.size - 1, -1, -1, dtype=np.float64)
+        monic = bottom * powers / (bottom[0] * powers[0])
+        padded = np.concatenate([np.zeros(bottom.size - top.size), top]) * powers / (bottom[0] * powers[0])
+        order = monic.size - 1
+        a = np.eye(order, k=-1)
+        a[0] = -monic[1:]
+        return cls(
+            a * speed_rad_s, np.eye(order)[0] * speed_rad_s, padded[1:] - padded[0] * monic[1:], padded[0]
+        )
+
+    @property
+    def order(self) -> int:
+        """Number of states."""
+        return self.b.size
+
+    @property
+    def poles_rad_s(self) -> ComplexArray:
+        """All poles, shape (n,), the eigenvalues of A."""
+        return np.asarray(np.linalg.eigvals(self.a), dtype=np.complex128)
+
+    @property
+    def ringing_poles_rad_s(self) -> ComplexArray:
+        """Poles above the real axis that ring: not at 0, and with a damping ratio up to 0.995."""
+        poles = self.poles_rad_s
+        rings = (poles.imag > _RINGS * np.abs(poles)) & (np.abs(poles) > _ON_AXIS * np.abs(poles).max())
+        return np.sort_complex(poles[rings])
+
+    @property
+    def zeros_rad_s(self) -> ComplexArray:
+        """All finite zeros: where [[A - s I, B], [C, D]] loses rank."""
+        from scipy.linalg import eig
+
+        pencil = np.block([[self.a, self.b[:, np.newaxis]], [self.c, np.array([self.d])]])
+        top, bottom = eig(pencil, np.diag([*np.ones(self.order), 0.0]), right=False, homogeneous_eigvals=True)
+        fastest = max(1e-300, float(np.abs(self.poles_rad_s).max()))
+        finite = np.abs(bottom) * fastest > _LOST * np.abs(top)
+        return np.asarray(top[finite] / bottom[finite], dtype=np.complex128)
+
+    def equilibrium(self, output: float) -> tuple[FloatArray, float]:
+        """Give state and input in which the plant rests with an output.
+
+        Raises
+        ------
+        DesignError
+            If it cannot rest there: a zero at 0, or states that the input does not hold.
+        """
+        held = np.column_stack([self.a, self.b])
+        _, sizes, directions = np.linalg.svd(held)
+        if sizes[-1] <= _LOST * sizes[0]:
+            raise DesignError("plant: a pole at 0 is not moved by the input: it is not controllable")
+        rest = directions[-1]
+        gain = float(self.c @ rest[:-1] + self.d * rest[-1])
+        if abs(gain) <= _BLOCKED * float(np.linalg.norm(np.append(self.c, self.d))):
+            raise DesignError("plant: a zero at 0: no input holds its output anywhere but at 0")
+        whole = np.vstack([held, np.append(self.c, self.d)])
+        rest = np.linalg.solve(whole, output * np.eye(self.order + 1)[-1]) + 0.0
+        return rest[:-1], float(rest[-1])
+
+    def check(self) -> None:
+        """Refuse a plant that no command computed ahead can bring to rest.
+
+        Raises
+        ------
+        DesignError
+            If a pole is unstable, or the input does not move it.
+        """
+        poles = self.poles_rad_s
+        fastest = float(np.abs(poles).max())
+        unstable = poles[poles.real > _ON_AXIS * fastest]
+        if unstable.size:
+            raise DesignError(
+                f"plant: unstable, pole at {shown(unstable[0])} rad/s: a command computed ahead cannot hold"
+                " it; close a loop first and give the plant with its loop"
+            )
+        lost = poles[uncontrolled(self.a, self.b, poles)]
+        if lost.size:
+            raise DesignError(
+                f"plant: not controllable, the input does not move the pole at {shown(lost[0])} rad/s"
+            )
+
+
+def uncontrolled(a: FloatArray, b: FloatArray, poles: ComplexArray) -> NDArray[np.bool_]:
+    """Which poles the input does not move: where [A - p I, B] loses rank (Popov, Belevitch, Hautus)."""
+    pencils = a - poles[:, np.newaxis, np.newaxis] * np.eye(b.size)
+    unit = b[:, np.newaxis] / max(float(np.linalg.norm(b)), 1e-300)
+    inputs = np.broadcast_to(unit, (poles.size, b.size, 1))
+    scale = max(float(np.linalg.norm(a, 2)), 1e-300)
+    sizes = np.linalg.svd(np.concatenate([pencils / scale, inputs], axis=2), compute_uv=False)
+    return np.asarray(sizes[:, -1] <= _LOST)
+
+
+def shown(pole: complex) -> str:
+    """Print a pole.
+
+    Examples
+    --------
+    >>> shown(2.0 + 0.0j), shown(-0.1 + 3.0j)
+    ('2', '-0.1+3j')
+    """
+    return f"{pole.real:.6g}" if pole.imag == 0.0 else f"{pole.real:.6g}{pole.imag:+.6g}j"
+
+
+def _finite(name: str, value: ArrayLike) -> FloatArray:
+    """Give an array that nobody can change, of finite numbers."""
+    array = np.array(value, dtype=np.float64)
+    if not np.isfinite(array).all():
+        raise DesignError(f"plant: {name} = {array.tolist()!r}: must be finite")
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,93 @@
+"""What a command leaves swinging where the plant is not what it was designed for. Not for: designing it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from swayless.design.optimal.command import Command
+from swayless.design.optimal.linear_plant import ComplexArray
+from swayless.design.residual import residual_vibration
+from swayless.design.shaper import FloatArray
+from swayless.plant import Mode
+
+
+def residual_amplitude(command: Command, frequency_hz: ArrayLike, damping_ratio: float = 0.0) -> FloatArray:
+    """Give the amplitude with which a mode of gain 1 still swings when the command ends.
+
+    The mode is w^2 / (s^2 + 2 d w s + w^2), w = 2 pi f; of a command that changes by 1 the amplitude is a
+    ratio of the move, as in the sensitivity curve of a shaper.
+
+    Parameters
+    ----------
+    command : Command
+        Zero-order, from rest.
+    frequency_hz : array_like
+        Actual undamped frequencies, > 0.
+    damping_ratio : float
+        0 <= damping_ratio < 1.
+
+    Returns
+    -------
+    ndarray
+        In units of the command, of the shape of `frequency_hz`.
+
+    References
+    ----------
+    Xu and Meckl (2005), fig 10.
+
+    Examples
+    --------
+    A step of 1 in two halves, half a period apart, leaves nothing; 20 % off, a third of the step:
+
+    >>> command = Command(0.5, [0.5], 1.0)
+    >>> residual_amplitude(command, [1.0, 1.2]).round(4)
+    array([0.   , 0.309])
+    """
+    return residual_vibration(command.increments, frequency_hz, damping_ratio=damping_ratio)
+
+
+def transform_derivatives(command: Command, pole_rad_s: complex, order: int) -> ComplexArray:
+    """Give s U(s) and its derivatives at a pole, U the transform of the command less its initial value.
+
+    Where they vanish, so do those of U: the residual vibration of the pole and its derivatives in it.
+
+    Parameters
+    ----------
+    command : Command
+        Zero-order.
+    pole_rad_s : complex
+        Where to look; not 0.
+    order : int
+        Highest derivative, >= 0.
+
+    Returns
+    -------
+    ndarray of complex, shape (order + 1,)
+        Sum of increments (-|p| t)^j exp(-p t), in units of the command: derivatives in s / |p|.
+
+    References
+    ----------
+    Xu and Meckl (2005), eqs 12, 25-33.
+
+    Examples
+    --------
+    >>> abs(transform_derivatives(Command(0.5, [0.5], 1.0), 2j * np.pi, 1)).round(9)
+    array([0.        , 1.57079633])
+    """
+    increments = command.increments
+    decayed = increments.amplitudes * np.exp(-pole_rad_s * increments.times_s)
+    powers = np.vander(-abs(pole_rad_s) * increments.times_s, order + 1, increasing=True)
+    return np.asarray(decayed @ powers)
+
+
+def mode_of(pole_rad_s: complex) -> Mode:
+    """Give the mode of a pole that rings, one that is unstable by rounding taken as undamped.
+
+    Examples
+    --------
+    >>> mode_of(-0.5 + 10.0j).damping_ratio.__round__(6)
+    0.049938
+    """
+    size = abs(pole_rad_s)
+    return Mode(size / (2.0 * np.pi), max(0.0, -pole_rad_s.real / size))
