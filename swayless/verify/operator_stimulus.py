@@ -14,12 +14,22 @@ Inputs = NDArray[np.void]
 Habit = Callable[[Builder, Inputs], None]
 
 
+def hurried(build: Builder, ticks: int) -> Inputs:
+    """Make records of a hurried operator: commands to and fro, other rows, nothing held to its end."""
+    inputs = build.blank(ticks)
+    levels = np.array([0.0, 0.0, 1.0, -1.0, 0.5, -0.3, 0.04])
+    inputs["command"] = build.commands(build.held(ticks, levels, build.last + build.ramp))
+    inputs["selector"] = build.held(ticks, np.arange(build.rows + 1), 6 * build.last + 20)
+    return inputs
+
+
 def pressed(build: Builder, inputs: Inputs) -> None:
     """Press step buttons: short, long, both at once, of every size and of none."""
     ticks, longest = inputs.size, 2 * (build.last + build.ramp)
     for name in ("step_forward", "step_reverse"):
         presses = build.held(ticks, np.array([False, False, True]), 6)
         inputs[name] = presses & build.held(ticks, np.array([False, True]), longest)
+    inputs["selector"] = build.held(ticks, np.arange(build.rows + 1), 3 * longest)
     inputs["step_size"] = build.held(ticks, np.array([1, 1, 1, 2, 2, 3, 0, 4, 255], dtype=np.uint8), longest)
     inputs["command"] *= build.held(ticks, np.array([0, 0, 0, 1], dtype=inputs["command"].dtype), longest)
 
@@ -28,25 +38,29 @@ def switched(build: Builder, inputs: Inputs) -> None:
     """Make and leave switches at both ends, at any moment, alone and together."""
     for name in inputs.dtype.names or ():
         if name.startswith(("stop_", "slow_")):
-            seldom = [True] + [False] * (11 if name.startswith("stop_") else 2)
+            seldom = [True] + [False] * (5 if name.startswith("stop_") else 2)
             inputs[name] = build.held(inputs.size, np.array(seldom), 20)
 
 
 def measured_ways(build: Builder, inputs: Inputs) -> None:
-    """Come nearer to both ends and go away again, jump, tremble, and be no distances at all."""
-    ticks, limits = inputs.size, build.settings.limits
+    """Come nearer to both ends and go away again, jump, tremble where it matters, and be no distances."""
+    ticks, limits, way = inputs.size, build.settings.limits, build.settings.operator.way
+    margin = 0.0 if way is None else float(way.margin)
     full_m = build.max / limits.units_per_m_s * build.settings.tick_s
     stop_m = full_m * (build.ramp + build.last)
     pace = build.held(ticks, np.array([0.0, 1.0, -1.0, 0.5, -0.7]), 3 * (build.last + build.ramp))
-    place_m = np.abs(np.mod(np.cumsum(pace) * full_m, 8.0 * stop_m) - 4.0 * stop_m)
-    jump_m = build.held(ticks, np.array([0.0, 0.0, 0.0, -2.0, 1.0, 9.0]) * stop_m, 4 * build.last + 20)
-    tremble_m = build.random.normal(0.0, 1e-3, ticks) * build.held(ticks, np.array([0.0, 1.0]), 100)
+    place_m = np.abs(np.mod(np.cumsum(pace) * full_m, 4.0 * stop_m) - 2.0 * stop_m)
+    jump_m = build.held(ticks, np.array([0.0, 0.0, 0.0, -1.0, 0.5, 9.0]) * stop_m, 4 * build.last + 20)
+    tremble_m = build.random.normal(0.0, 5e-3, ticks) * build.held(ticks, np.array([0.0, 1.0]), 100)
+    is_near = build.held(ticks, np.array([False, False, True]), 4 * build.last + 20)
     per_m = 1000.0 if build.settings.number.is_integer else 1.0
-    for name, way_m in (("distance_forward", place_m), ("distance_reverse", 4.0 * stop_m - place_m)):
+    for name, way_m in (("distance_forward", place_m), ("distance_reverse", 2.0 * stop_m - place_m)):
         wrong = build.held(ticks, np.array([False] * 9 + [True]), 20)
         odd = build.held(ticks, build.odd(stop_m * per_m), 5)
-        inputs[name] = np.where(wrong, odd, build.reals((way_m + jump_m + tremble_m) * per_m))
-    inputs["distance_valid"] = build.held(ticks, np.array([True] * 7 + [False]), 60)
+        found = np.where(is_near, margin, (way_m + jump_m) * per_m) + tremble_m * per_m
+        inputs[name] = np.where(wrong, odd, build.reals(found))
+    # What is not valid is counted down by the references themselves: the crane comes to the end.
+    inputs["distance_valid"] = build.held(ticks, np.array([True, False]), build.last + build.ramp)
 
 
 def tripped(build: Builder, inputs: Inputs) -> None:

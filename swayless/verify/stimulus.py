@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swayless.controller.settings import ShaperSettings
 from swayless.verify.builder import Builder
-from swayless.verify.operator_stimulus import habits, touched
+from swayless.verify.operator_stimulus import habits, hurried, touched
 from swayless.verify.rope_stimulus import hoisted, misread, wandering
 
 
@@ -140,8 +140,7 @@ def stimuli(settings: ShaperSettings, *, ticks: int, seed: int = 1) -> Iterator[
 def _operated(build: Builder, ticks: int) -> Iterator[Stimulus]:
     """Make the stimuli of what only some blocks have inputs for."""
     for name, habit in habits(build.settings):
-        inputs = joystick(build, ticks).inputs
-        inputs["command"] *= build.held(ticks, np.array([0, 1, 1], dtype=inputs["command"].dtype), 60)
+        inputs = hurried(build, ticks)
         habit(build, inputs)
         yield Stimulus(name, inputs)
     if habits(build.settings):
