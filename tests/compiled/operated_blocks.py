@@ -14,7 +14,7 @@ from tests.unit.controller.operator_blocks import operated
 
 DESIGN_ID = 0xCAFE_F00D
 SMALL = {"inching_speed_m_s": 0.08, "minimum_speed_m_s": 0.03, "command_resolution_m_s": 0.02}
-RAMPS = {"acceleration_m_s2": 0.6, "deceleration_m_s2": 0.9, "quick_stop_m_s2": 2.0}
+RAMPS = {"acceleration_m_s2": 1.3, "deceleration_m_s2": 0.8, "quick_stop_m_s2": 2.0}
 OPTIONS = {
     "step_sizes_m": (0.05, 0.21, 1.0),
     "step_speed_m_s": 0.4,
