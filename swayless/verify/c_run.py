@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +22,8 @@ RUN_TIMEOUT_S = 300.0
 """A million ticks take a fraction of a second."""
 
 
-class CompiledBlock:
-    """A command shaper in C, compiled; a context manager that owns a temporary folder.
+class CompiledProgram:
+    """A block in C, compiled; a context manager that owns a temporary folder.
 
     Parameters
     ----------
@@ -32,8 +33,8 @@ class CompiledBlock:
         The program that feeds the block.
     compiler : Compiler
         What compiles them.
-    settings : ShaperSettings
-        The block, for the layout of its records.
+    outputs : dtype
+        Layout of the records of its outputs.
     """
 
     def __init__(
@@ -41,13 +42,13 @@ class CompiledBlock:
         files: Sequence[GeneratedFile],
         harness: GeneratedFile,
         compiler: Compiler,
-        settings: ShaperSettings,
+        outputs: np.dtype[np.void],
     ) -> None:
-        self._files, self._harness, self._compiler, self._settings = files, harness, compiler, settings
+        self._files, self._harness, self._compiler, self._outputs = files, harness, compiler, outputs
         self._folder = tempfile.TemporaryDirectory(prefix="swayless-", ignore_cleanup_errors=True)
         self._program = Path(self._folder.name) / "block.exe"
 
-    def __enter__(self) -> CompiledBlock:
+    def __enter__(self) -> Self:
         """Write the files and compile them."""
         folder = Path(self._folder.name)
         try:
@@ -75,12 +76,12 @@ class CompiledBlock:
         Parameters
         ----------
         inputs : structured ndarray, shape (ticks,)
-            Fields as in `input_dtype`.
+            Laid out as the input structure.
 
         Returns
         -------
         structured ndarray, shape (ticks,)
-            Fields as in `output_dtype`.
+            Laid out as the output structure.
 
         Raises
         ------
@@ -99,4 +100,25 @@ class CompiledBlock:
             raise VerificationError(f"the compiled block did not end within {RUN_TIMEOUT_S:.0f} s") from error
         if done.returncode != 0:
             raise VerificationError(f"the compiled block ended with code {done.returncode}")
-        return np.frombuffer(done.stdout, dtype=output_dtype(self._settings))
+        return np.frombuffer(done.stdout, dtype=self._outputs)
+
+
+class CompiledBlock(CompiledProgram):
+    """A command shaper in C, compiled.
+
+    Parameters
+    ----------
+    files, harness, compiler
+        As for `CompiledProgram`.
+    settings : ShaperSettings
+        The block, for the layout of its records.
+    """
+
+    def __init__(
+        self,
+        files: Sequence[GeneratedFile],
+        harness: GeneratedFile,
+        compiler: Compiler,
+        settings: ShaperSettings,
+    ) -> None:
+        super().__init__(files, harness, compiler, output_dtype(settings))

@@ -13,15 +13,15 @@ from swayless.verify.records import output_dtype
 from swayless.verify.structured_text import load
 
 
-class EvaluatedBlock:
-    """A command shaper in Structured Text, parsed, checked and translated once.
+class EvaluatedProgram:
+    """A block in Structured Text, parsed, checked and translated once.
 
     Parameters
     ----------
     text : str
         The generated file.
-    settings : ShaperSettings
-        The block, for the fields of its records.
+    outputs : dtype
+        Layout of the records of its outputs.
 
     Raises
     ------
@@ -31,12 +31,12 @@ class EvaluatedBlock:
         If the text is not portable Structured Text.
     """
 
-    def __init__(self, text: str, settings: ShaperSettings) -> None:
+    def __init__(self, text: str, outputs: np.dtype[np.void]) -> None:
         self._program = load(text)
-        self._settings = settings
+        self._outputs = outputs
 
     def run(self, inputs: NDArray[np.void]) -> NDArray[np.void]:
-        """Run the block from power-on over a stimulus; arrays as in `CompiledBlock.run`.
+        """Run the block from power-on over a stimulus; arrays as in `CompiledProgram.run`.
 
         Raises
         ------
@@ -44,7 +44,7 @@ class EvaluatedBlock:
             If the block has other pins than the records have fields.
         """
         block = self._program.instantiate()
-        outputs = np.zeros(inputs.size, dtype=output_dtype(self._settings))
+        outputs = np.zeros(inputs.size, dtype=self._outputs)
         pins = _in_order(self._program.inputs, inputs.dtype)
         results = _in_order(self._program.outputs, outputs.dtype)
         columns = [inputs[name].tolist() for name in inputs.dtype.names or ()]
@@ -52,6 +52,21 @@ class EvaluatedBlock:
             found = block.step(dict(zip(pins, values, strict=True)))
             outputs[tick] = tuple(found[name] for name in results)
         return outputs
+
+
+class EvaluatedBlock(EvaluatedProgram):
+    """A command shaper in Structured Text.
+
+    Parameters
+    ----------
+    text : str
+        The generated file.
+    settings : ShaperSettings
+        The block, for the fields of its records.
+    """
+
+    def __init__(self, text: str, settings: ShaperSettings) -> None:
+        super().__init__(text, output_dtype(settings))
 
 
 def _in_order(pins: Mapping[str, str], record: np.dtype[np.void]) -> list[str]:
