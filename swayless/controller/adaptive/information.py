@@ -145,7 +145,7 @@ def noise_power(window: Information) -> Any:
     (0.0, 0.5)
     """
     trace, minors, determinant = _invariants(window)
-    noise = 0.0 * trace
+    noise = trace - trace
     for _ in range(NEWTON_STEPS):
         value = (((noise - trace) * noise) + minors) * noise - determinant
         slope = (((3.0 * noise) - (trace + trace)) * noise) + minors

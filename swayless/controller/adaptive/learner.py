@@ -17,6 +17,7 @@ from swayless.controller.adaptive.information import (
     squared_size,
 )
 from swayless.controller.adaptive.settings import AdaptiveSettings
+from swayless.controller.number import NumberType
 
 WHITE_AT_FIRST = 1e-7
 """P(0) = 1e7 I."""
@@ -37,6 +38,17 @@ CONVERGED_WITHIN = 0.01
 """A set that changes by no more in a window has converged."""
 
 
+def dead_zone_sum(settings: AdaptiveSettings) -> float:
+    """Sum of squares, over a window and the three samples of each tick, of vibration in the dead zone."""
+    return 3.0 * settings.window_ticks * settings.dead_zone_ratio**2
+
+
+def first_coefficients(number: NumberType) -> Coefficients:
+    """1/3 each, on the lattice of the number type."""
+    third = number.scalar(1) / 3.0
+    return on_lattice((third, third, third))
+
+
 class Learner:
     """The coefficients, and all that is known of the vibration.
 
@@ -50,7 +62,7 @@ class Learner:
         scalar = settings.number.scalar
         self._window_ticks = settings.window_ticks
         self._peak_factor = scalar(settings.peak_factor)
-        self._dead_zone = scalar(3.0 * settings.window_ticks * settings.dead_zone_ratio**2)
+        self._dead_zone = scalar(dead_zone_sum(settings))
         self._nothing = Information(*(scalar(0) for _ in range(6)))
         self._at_first = self._nothing.with_white(scalar(WHITE_AT_FIRST))
         self._zero, self._one = scalar(0), scalar(1)
@@ -59,7 +71,7 @@ class Learner:
         self._left: Any = self._zero
         self._noise: Any = self._zero
         self._samples: Any = self._zero
-        self.coefficients: Coefficients = on_lattice((scalar(1) / 3.0, scalar(1) / 3.0, scalar(1) / 3.0))
+        self.coefficients: Coefficients = first_coefficients(settings.number)
         self.has_learned = self.is_converged = self.is_frozen = False
         self.learns_again = self.was_refused = False
 

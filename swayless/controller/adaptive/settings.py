@@ -38,7 +38,7 @@ class AdaptiveSettings:
     vibration_scale : float
         Measured vibration that counts as 1, about the amplitude that an unshaped move leaves, > 0.
     cycle_ticks : int
-        The command passes unshaped for so long after it has first moved: the first cycle, 0 or more.
+        The command passes unshaped for so long after it has first moved: the first cycle, 1 or more.
     max_reference : float or None
         What the drive can follow, `max_command` to 8 times that. Amplitudes that could ask for more are
         refused. None: `max_command`, which refuses negative amplitudes.
@@ -87,7 +87,7 @@ be at most 0.95; half a period is 0.03125 s, of which 0.1 to 0.9 can be learned
                 "adaptive: number = 'int32': must be double or float; sums of squares of a measurement "
                 "span more than 64 bits of fixed point"
             )
-        for name, lowest in (("delay_ticks", 1), ("cycle_ticks", 0), ("lag_ticks", 0)):
+        for name, lowest in (("delay_ticks", 1), ("cycle_ticks", 1), ("lag_ticks", 0)):
             self._check_ticks(name, lowest)
         for name in ("tick_s", "max_command", "vibration_scale"):
             self._check_positive(name)

@@ -144,7 +144,7 @@ def test_the_window_spans_eight_delays_or_64_ticks():
     [
         ({"number": number_type("int32")}, "number = 'int32': must be double or float"),
         ({"delay_ticks": 0}, "delay_ticks = 0: must be from 1 to 125000"),
-        ({"cycle_ticks": -1}, "cycle_ticks = -1: must be from 0"),
+        ({"cycle_ticks": -1}, "cycle_ticks = -1: must be from 1"),
         ({"lag_ticks": 10**7}, "lag_ticks = 10000000: must be from 0 to 1000000"),
         ({"tick_s": math.nan}, "tick_s = nan: must be from"),
         ({"max_command": 0.0}, "max_command = 0.0: must be from"),

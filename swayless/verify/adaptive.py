@@ -1,0 +1,178 @@
+"""Prove generated adaptive shapers against their reference, bit for bit. Not for: command shapers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swayless.codegen.adaptive_files import adaptive_harness
+from swayless.codegen.adaptive_model import INPUTS, OUTPUTS, AdaptiveModel
+from swayless.codegen.pin import Pin
+from swayless.codegen.render import GeneratedFile
+from swayless.controller.adaptive import AdaptiveInput, AdaptiveSettings, AdaptiveShaper
+from swayless.plant.mode import Mode
+from swayless.plant.simulation.flexible_robot import FlexibleRobot
+from swayless.verify.c_run import CompiledProgram
+from swayless.verify.comparison import compare
+from swayless.verify.records import COMMAND_TYPES
+from swayless.verify.st_run import EvaluatedProgram
+from swayless.verify.stimulus import Stimulus
+from swayless.verify.toolchain import Compiler
+from swayless.verify.verification import Verdict
+
+MOVES = 40
+"""Moves of each stimulus."""
+
+NOISE_RATIO = 0.05
+"""Measurement noise, relative to the vibration that counts as 1."""
+
+
+def verify_adaptive(
+    model: AdaptiveModel,
+    *,
+    c_files: Sequence[GeneratedFile] = (),
+    st_files: Sequence[GeneratedFile] = (),
+    compiler: Compiler | None = None,
+) -> Iterator[Verdict]:
+    """Run generated code and its reference over every stimulus and compare all outputs bit for bit.
+
+    Parameters
+    ----------
+    model : AdaptiveModel
+        The block; the reference of its settings is what generated code is compared with.
+    c_files, st_files : sequence of GeneratedFile
+        What to verify; an empty sequence leaves the language out.
+    compiler : Compiler
+        Needed for `c_files`.
+
+    Yields
+    ------
+    Verdict
+        One for each stimulus and language.
+
+    Raises
+    ------
+    VerificationError
+        If the code does not compile or run at all.
+    ToolMissingError
+        If the Structured Text parser is missing.
+    """
+    number, outputs = model.settings.number.name, _records(OUTPUTS, model.settings)
+    with ExitStack() as stack:
+        runs: list[tuple[str, CompiledProgram | EvaluatedProgram]] = []
+        if c_files and compiler is not None:
+            program = CompiledProgram(c_files, adaptive_harness(model), compiler, outputs)
+            runs.append((f"C by {compiler.name}, {number}", stack.enter_context(program)))
+        for file in st_files:
+            runs.append((f"ST by evaluator, {model.st_real}", EvaluatedProgram(file.text, outputs)))
+        for stimulus in adaptive_stimuli(model.settings):
+            expected = run_adaptive_reference(model.settings, stimulus.inputs)
+            for code, run in runs:
+                found = compare(expected, run.run(stimulus.inputs))
+                yield Verdict(code, stimulus.name, expected.size, found)
+
+
+def run_adaptive_reference(settings: AdaptiveSettings, inputs: NDArray[np.void]) -> NDArray[np.void]:
+    """Run the reference over recorded inputs.
+
+    Parameters
+    ----------
+    settings : AdaptiveSettings
+        The block.
+    inputs : structured ndarray, shape (ticks,)
+        Fields `enable`, `command` and `vibration`.
+    """
+    shaper, scalar = AdaptiveShaper(settings), settings.number.scalar
+    outputs = np.zeros(inputs.size, dtype=_records(OUTPUTS, settings))
+    columns = (inputs[name].tolist() for name in ("command", "vibration", "enable"))
+    for tick, (command, vibration, enable) in enumerate(zip(*columns, strict=True)):
+        found = shaper.step(AdaptiveInput(scalar(command), scalar(vibration), enable))
+        outputs[tick] = (
+            found.reference,
+            *found.coefficient,
+            found.adapting,
+            found.converged,
+            found.frozen,
+            found.status,
+        )
+    return outputs
+
+
+def adaptive_stimuli(settings: AdaptiveSettings) -> Iterator[Stimulus]:
+    """Make every stimulus: a robot under the block, with two payloads, quiet, noisy, and with bad readings.
+
+    Parameters
+    ----------
+    settings : AdaptiveSettings
+        The block.
+    """
+    yield Stimulus("moves without noise", _closed_loop(settings, 0.0, seed=1))
+    noisy = _closed_loop(settings, NOISE_RATIO, seed=2)
+    yield Stimulus("moves with noise", noisy)
+    yield Stimulus("bad readings", _spoilt(settings, noisy, seed=3))
+    yield Stimulus("noise alone", _noise_alone(settings, seed=4))
+
+
+def _closed_loop(settings: AdaptiveSettings, noise: float, *, seed: int) -> NDArray[np.void]:
+    """Let a robot of 0.4 periods a delay move at random, then with another payload."""
+    random = np.random.default_rng(seed)
+    inputs = _blank(settings, MOVES * _move_ticks(settings))
+    levels = random.uniform(-1.0, 1.0, MOVES) * settings.max_command
+    inputs["command"] = np.repeat(levels, _move_ticks(settings))
+    delay_s = settings.delay_ticks * settings.tick_s
+    robot = FlexibleRobot(Mode(0.4 / delay_s, 0.01), settings.tick_s)
+    per_speed = settings.vibration_scale * delay_s / (2.5 * settings.max_command)
+    errors = noise * settings.vibration_scale * random.standard_normal(inputs.size)
+    shaper, scalar, vibration = AdaptiveShaper(settings), settings.number.scalar, 0.0
+    for tick, (command, error) in enumerate(zip(inputs["command"].tolist(), errors.tolist(), strict=True)):
+        if tick == inputs.size // 2:
+            robot.load(Mode(0.2 / delay_s, 0.01))
+        inputs["vibration"][tick] = vibration + error
+        pins = AdaptiveInput(scalar(command), scalar(inputs["vibration"][tick]))
+        vibration = per_speed * robot.step(float(shaper.step(pins).reference))
+    return inputs
+
+
+def _spoilt(settings: AdaptiveSettings, inputs: NDArray[np.void], *, seed: int) -> NDArray[np.void]:
+    """Put values into good inputs that are not finite, too large or tiny, and switch the block off and on."""
+    random, spoilt = np.random.default_rng(seed), inputs.copy()
+    info = np.finfo(inputs["command"].dtype)
+    odd = [np.nan, np.inf, -np.inf, info.max, -info.max, info.tiny, -0.0, settings.max_command]
+    for name in ("command", "vibration"):
+        ticks = random.integers(0, inputs.size, 4 * len(odd))
+        spoilt[name][ticks] = np.resize(odd, ticks.size)
+    spoilt["enable"] = np.repeat(random.random(MOVES) > 0.2, _move_ticks(settings))
+    return spoilt
+
+
+def _noise_alone(settings: AdaptiveSettings, *, seed: int) -> NDArray[np.void]:
+    """Hold the command, and let the measurement be anything from tiny noise to more than it may be."""
+    random, inputs = np.random.default_rng(seed), _blank(settings, MOVES * _move_ticks(settings))
+    sizes = np.repeat(np.geomspace(1e-30, 200.0, MOVES), _move_ticks(settings)) * settings.vibration_scale
+    inputs["vibration"] = sizes * random.standard_normal(inputs.size)
+    return inputs
+
+
+def _move_ticks(settings: AdaptiveSettings) -> int:
+    """So long lasts a move: until the vibration is free, and two windows and a half."""
+    return settings.quiet_ticks + (5 * settings.window_ticks) // 2
+
+
+def _blank(settings: AdaptiveSettings, ticks: int) -> NDArray[np.void]:
+    inputs = np.zeros(ticks, dtype=_records(INPUTS, settings))
+    inputs["enable"] = True
+    return inputs
+
+
+def _records(pins: Sequence[Pin], settings: AdaptiveSettings) -> np.dtype[np.void]:
+    """Record type, laid out as the C structure is."""
+    kinds: dict[str, Any] = {
+        "bool": np.bool_,
+        "real": COMMAND_TYPES[settings.number.name],
+        "word": np.uint32,
+    }
+    return np.dtype([(pin.field, kinds[pin.kind]) for pin in pins], align=True)
