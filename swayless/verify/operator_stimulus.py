@@ -31,7 +31,7 @@ def pressed(build: Builder, inputs: Inputs) -> None:
         inputs[name] = presses & build.held(ticks, np.array([False, True]), longest)
     inputs["selector"] = build.held(ticks, np.arange(build.rows + 1), 3 * longest)
     inputs["step_size"] = build.held(ticks, np.array([1, 1, 1, 2, 2, 3, 0, 4, 255], dtype=np.uint8), longest)
-    inputs["command"] *= build.held(ticks, np.array([0, 0, 0, 1], dtype=inputs["command"].dtype), longest)
+    inputs["command"][build.held(ticks, np.array([True, True, True, False]), longest)] = 0
 
 
 def switched(build: Builder, inputs: Inputs) -> None:
