@@ -20,6 +20,7 @@ from swayless.cli.identify import IdentifyCommand, identify
 from swayless.cli.init import init
 from swayless.cli.options import OptionError
 from swayless.cli.plot import plot
+from swayless.cli.profile import profile_app
 from swayless.cli.simulate import simulate
 from swayless.cli.verify import verify
 from swayless.errors import FileError, SwaylessError, ToolMissingError, VerificationError
@@ -35,7 +36,7 @@ class Menu(TyperGroup):
         return sorted(super().list_commands(ctx), key=_ORDER.index)
 
 
-_ORDER = ("init", "identify", "design", "plot", "simulate", "generate", "verify", "build")
+_ORDER = ("init", "identify", "design", "profile", "plot", "simulate", "generate", "verify", "build")
 
 app = typer.Typer(
     name="swayless",
@@ -72,6 +73,7 @@ for _command in (init, simulate, generate, verify, build):
 app.command(cls=IdentifyCommand, help=help_text(identify))(identify)
 app.command(help=help_text(plot), short_help="Draw sensitivity, a response, a bank, or a trade-off.")(plot)
 app.add_typer(design_app, name="design")
+app.add_typer(profile_app, name="profile", short_help="Compute a move ahead, to be played from a table.")
 
 
 def main() -> None:

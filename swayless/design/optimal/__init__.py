@@ -10,7 +10,7 @@ from swayless.design.optimal.linear_plant import LinearPlant
 from swayless.design.optimal.moves import OptimalCommand
 from swayless.design.optimal.robustification import Robustness
 from swayless.design.optimal.sampling import output_at_ticks
-from swayless.design.optimal.sensitivity import residual_amplitude, transform_derivatives
+from swayless.design.optimal.sensitivity import residual_amplitude, swing_left, transform_derivatives
 from swayless.design.optimal.task import MoveTask
 from swayless.design.optimal.time_optimal import time_optimal
 
@@ -25,6 +25,7 @@ __all__ = [
     "output_at_ticks",
     "output_with_feedback",
     "residual_amplitude",
+    "swing_left",
     "time_optimal",
     "track",
     "transform_derivatives",

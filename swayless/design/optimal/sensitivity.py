@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swayless.design.optimal.command import Command
-from swayless.design.optimal.linear_plant import ComplexArray
+from swayless.design.optimal.linear_plant import ComplexArray, LinearPlant
 from swayless.design.residual import residual_vibration
 from swayless.design.shaper import FloatArray
 from swayless.plant import Mode
@@ -45,6 +45,44 @@ def residual_amplitude(command: Command, frequency_hz: ArrayLike, damping_ratio:
     array([0.   , 0.309])
     """
     return residual_vibration(command.increments, frequency_hz, damping_ratio=damping_ratio)
+
+
+def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike) -> FloatArray:
+    """Give the amplitude with which each ringing mode still moves the output when the command ends.
+
+    The mode keeps its damping ratio and what it adds to the output at rest; its frequency is off.
+
+    Parameters
+    ----------
+    plant : LinearPlant
+        The nominal one.
+    command : Command
+        Zero-order.
+    frequency_ratio : array_like, shape (n,)
+        Actual frequencies, of the nominal ones; > 0.
+
+    Returns
+    -------
+    ndarray, shape (modes, n)
+        In units of the output; modes in the order of `LinearPlant.ringing_poles_rad_s`.
+
+    Examples
+    --------
+    >>> plant = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0])
+    >>> swing_left(plant, Command(np.pi / 10.0, [0.5], 1.0), [1.0, 1.2]).round(4)
+    array([[0.   , 0.309]])
+    """
+    poles, vectors = np.linalg.eig(plant.a)
+    residues = (plant.c @ vectors) * np.linalg.solve(vectors, plant.b)
+    rows = []
+    for pole in plant.ringing_poles_rad_s:
+        nearest = np.abs(poles - pole).argmin()
+        actual = pole * np.asarray(frequency_ratio, dtype=np.float64)
+        increments = command.increments
+        since_s = command.duration_s - increments.times_s
+        swings = np.exp(actual[:, np.newaxis] * since_s) @ increments.amplitudes
+        rows.append(2.0 * np.abs(residues[nearest] / pole) * np.abs(swings))
+    return np.array(rows).reshape(len(rows), -1)
 
 
 def transform_derivatives(command: Command, pole_rad_s: complex, order: int) -> ComplexArray:

@@ -1,0 +1,124 @@
+"""What `swayless profile` prints and writes of a command: words, JSON, and a table of ticks.
+
+Not for: finding the command.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from swayless.cli.console import counted, per_cent, print_line, print_table, rounded_down
+from swayless.design.optimal import OptimalCommand, output_at_ticks
+from swayless.design.optimal.sensitivity import mode_of, swing_left
+from swayless.machine.profile_file import ProfileRequest
+
+OFF = (0.9, 1.0, 1.1)
+"""Actual frequencies, of the nominal ones, at which what is left is said."""
+
+
+def document(request: ProfileRequest, found: OptimalCommand) -> dict[str, Any]:
+    """Give everything that is known of a command, for machines."""
+    task, command = request.task, found.command
+    output = output_at_ticks(task.plant, command, start=task.start)
+    return {
+        "name": request.name,
+        "tick_s": command.tick_s,
+        "ticks": found.ticks,
+        "duration_s": command.duration_s,
+        "hold": command.hold,
+        "initial_value": command.initial_value,
+        "command": command.values.tolist(),
+        "final_value": command.final_value,
+        "start": task.start,
+        "target": task.target,
+        "limit": list(task.limits),
+        "rate_limit_per_s": task.rate_limit_per_s,
+        "robust_order": task.robustness.order,
+        "split_ratio": task.robustness.split_ratio,
+        "tracking_tolerance": request.tolerance,
+        "utilisation_ratio": found.utilisation_ratio,
+        "proved_utilisation_ratio": found.proved_utilisation_ratio,
+        "fewer_utilisation_ratio": _finite(found.fewer_utilisation_ratio),
+        "final_error_ratio": found.final_error_ratio,
+        "reference": output.tolist(),
+        "left": [
+            {
+                "frequency_hz": mode_of(complex(pole)).frequency_hz,
+                "damping_ratio": mode_of(complex(pole)).damping_ratio,
+                "at_ratio": list(OFF),
+                "amplitude": left.tolist(),
+            }
+            for pole, left in zip(
+                task.plant.ringing_poles_rad_s, swing_left(task.plant, command, OFF), strict=True
+            )
+        ],
+    }
+
+
+def _finite(ratio: float | None) -> float | None:
+    """Give a ratio that JSON can hold: none for infinity, where no input at all would do."""
+    return ratio if ratio is not None and ratio < float("inf") else None
+
+
+def trajectory_text(request: ProfileRequest, found: OptimalCommand) -> str:
+    """Give the command, as feedforward, and the output it should make, as the reference of a feedback: CSV.
+
+    The last line is of the end of the command; both stay there.
+    """
+    task, command = request.task, found.command
+    output = output_at_ticks(task.plant, command, start=task.start)
+    inputs = [*command.values.tolist(), command.final_value]
+    lines = [
+        f"{tick},{tick * command.tick_s:.12g},{value!r},{reference!r}\n"
+        for tick, (value, reference) in enumerate(zip(inputs, output.tolist(), strict=True))
+    ]
+    return "tick,time_s,command,reference\n" + "".join(lines)
+
+
+def print_found(request: ProfileRequest, found: OptimalCommand) -> None:
+    """Print a command for a person: how long, what is proved, and what is left where the plant differs."""
+    task, command = request.task, found.command
+    how = "fastest" if found.fewer_utilisation_ratio is not None else "least energy"
+    lasts = f"{counted(found.ticks, 'tick')} of {command.tick_s:g} s, {command.duration_s:.6g} s"
+    rows = [
+        ("move", f"{task.start:g} to {task.target:g}"),
+        (how, lasts),
+        ("command", f"{command.values.min():.6g} to {command.values.max():.6g}"),
+        ("held at the end by", f"{command.final_value:.6g}"),
+        ("takes of the limits", per_cent(found.utilisation_ratio)),
+        ("misses rest by", f"{found.final_error_ratio:.1g} of the largest state"),
+    ]
+    print_table(request.name, ("", "value"), rows)
+    modes = _left_rows(request, found)
+    if modes:
+        heads = ("mode [Hz]", *(f"at {100 * ratio:g} %" for ratio in OFF))
+        print_table("left swinging at the end, where the frequency is off", heads, modes)
+    if found.fewer_utilisation_ratio is not None:
+        print_line(_proof(found.ticks - 1, found.fewer_utilisation_ratio))
+    else:
+        least = rounded_down(100.0 * found.proved_utilisation_ratio)
+        print_line(f"proved: no command of this length takes less than {least} % of the limits")
+    typer.echo("note: a command computed ahead; give -o to write it with its trajectory, for a feedback")
+
+
+def _left_rows(request: ProfileRequest, found: OptimalCommand) -> list[tuple[str, ...]]:
+    """Say what each mode leaves at each frequency, in units of the output."""
+    plant = request.task.plant
+    lefts = swing_left(plant, found.command, OFF)
+    frequencies = [mode_of(complex(pole)).frequency_hz for pole in plant.ringing_poles_rad_s]
+    return [
+        (f"{frequency_hz:.6g}", *(f"{left:.3g}" if left > 1e-8 else "0" for left in row))
+        for frequency_hz, row in zip(frequencies, lefts, strict=True)
+    ]
+
+
+def _proof(ticks: int, share: float) -> str:
+    """Say why one tick less is too few."""
+    if share == float("inf"):
+        return f"proved: {counted(ticks, 'tick')} cannot bring the plant to rest, whatever the limits"
+    least = rounded_down(100.0 * share)
+    return (
+        f"proved: {counted(ticks, 'tick')} would take at least {least} % of the limits; no command is shorter"
+    )

@@ -1,0 +1,172 @@
+"""`swayless profile optimal`: files and options in, a proved command out."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+import typer
+
+from swayless.cli.app import app
+from swayless.design.optimal import LinearPlant, output_at_ticks
+from swayless.design.optimal.command import Command
+from swayless.machine import example_text
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "profiles" / "time-optimal-oscillator.toml"
+PAGE = (ROOT / "docs" / "profile.md").read_text(encoding="utf-8")
+OSCILLATOR = (
+    "--numerator",
+    "1",
+    "--denominator",
+    "0.01 0 1",
+    "--limit",
+    "5",
+    "--tick",
+    "5 ms",
+    "--target",
+    "1",
+)
+
+
+def found(done):
+    assert (done.code, done.err) == (0, "")
+    return json.loads(done.out)
+
+
+def played(document):
+    """The command of a document, as a controller would play it."""
+    values, final = np.array(document["command"]), document["final_value"]
+    return Command(document["tick_s"], values, final, initial_value=document["initial_value"])
+
+
+def test_the_example_is_the_robust_move_of_the_paper(run):
+    document = found(run("profile", "optimal", EXAMPLE, "--json"))
+    assert (document["tick_s"], document["ticks"], document["final_value"]) == (0.005, 58, 1.0)
+    assert len(document["command"]) == 58
+    assert np.abs(document["command"]).max() <= 5.0
+    assert document["fewer_utilisation_ratio"] > 1.0
+    plant = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0])
+    output = output_at_ticks(plant, played(document), ticks=200)
+    assert output[58:] == pytest.approx(1.0, abs=1e-9)
+    assert output[:59] == pytest.approx(document["reference"], abs=1e-12)
+
+
+def test_options_do_what_the_file_does_and_replace_it(run):
+    file = found(run("profile", "optimal", EXAMPLE, "--json"))
+    options = found(run("profile", "optimal", *OSCILLATOR, "--robust", "1", "--json"))
+    assert options["command"] == file["command"]
+    assert found(run("profile", "optimal", EXAMPLE, "--robust", "0", "--json"))["ticks"] == 18
+    assert found(run("profile", "optimal", EXAMPLE, "--limit", "-1 5", "--json"))["limit"] == [-1.0, 5.0]
+
+
+def test_a_state_space_is_the_same_plant(run, tmp_path):
+    text = EXAMPLE.read_text().replace(
+        "numerator = [1.0]", "a = [[0.0, 1.0], [-100.0, 0.0]]\nb = [0.0, 100.0]"
+    )
+    (tmp_path / "move.toml").write_text(text.replace("denominator = [0.01, 0.0, 1.0]", "c = [1.0, 0.0]"))
+    document = found(run("profile", "optimal", "move.toml", "--json"))
+    assert document["command"] == pytest.approx(
+        found(run("profile", "optimal", EXAMPLE, "--json"))["command"]
+    )
+
+
+def test_relaxed_time_takes_less_of_the_limits(run):
+    document = found(run("profile", "optimal", EXAMPLE, "--relax", "1.5", "--json"))
+    assert document["ticks"] == 87
+    assert document["fewer_utilisation_ratio"] is None
+    # Less than a third of the limit in half as much time again.
+    assert document["utilisation_ratio"] < 1.0 / 3.0
+
+
+def test_a_trajectory_is_read_followed_and_written(run, tmp_path):
+    k = np.arange(1, 121) / 120
+    wanted = 3.0 * k**2 - 2.0 * k**3
+    rows = "".join(f"{0.01 * tick:.2f};{value!r}\n" for tick, value in enumerate(wanted.tolist(), 1))
+    (tmp_path / "wanted.csv").write_text(f"time;output\n{rows}")
+    options = ("--tick", "10 ms", "--track", "wanted.csv", "--tolerance", "0.02", "-o", "move.csv")
+    document = found(run("profile", "optimal", *OSCILLATOR, *options, "--json"))
+    assert np.abs(np.array(document["reference"][1:]) - wanted).max() <= 0.02 * (1.0 + 1e-9)
+    lines = (tmp_path / "move.csv").read_text().splitlines()
+    assert lines[0] == "tick,time_s,command,reference"
+    table = np.array([line.split(",") for line in lines[1:]], dtype=float)
+    assert table[:, 0].tolist() == list(range(121))
+    assert table[:-1, 2].tolist() == document["command"]
+    assert table[-1, 2] == document["final_value"]
+    assert table[:, 3].tolist() == document["reference"]
+
+
+def test_a_crane_moves_within_its_speed_and_acceleration(run, tmp_path):
+    (tmp_path / "crane.toml").write_text(example_text("workshop-crane"))
+    options = ("--rope-length", "5 m", "--target", "1", "--tick", "50 ms", "--json")
+    document = found(run("profile", "optimal", "crane.toml", *options))
+    assert document["final_value"] == pytest.approx(0.0, abs=1e-12)
+    steps = np.diff([0.0, *document["command"], document["final_value"]])
+    assert np.abs(steps).max() <= 0.3 * 0.05 * (1.0 + 1e-9)
+    assert document["reference"][-1] == pytest.approx(1.0, abs=1e-9)
+    # The way of the trolley is that of the load.
+    assert 0.05 * sum(document["command"]) == pytest.approx(1.0, abs=1e-9)
+
+
+CASES = {
+    "--target 1 --tick 1": [
+        "numerator and denominator, or a, b and c: exactly one is needed",
+        "--limit: missing",
+    ],
+    "--numerator x --denominator 1": ['--numerator = "x": must be numbers'],
+    "move.toml --limit 0": ["move.toml: --limit = 0: must be one number > 0"],
+    "move.toml --target 9": ["move.toml: target = 9: needs an input of 9 to stay there"],
+    "move.toml --robust 7": ["move.toml: --robust = 7: must be an integer from 0 to 6"],
+    "move.toml --ei '5 %'": ["poles are either repeated or split"],
+    "move.toml --track no.csv": ["a trajectory and its tolerance belong together"],
+    "move.toml --track no.csv --tolerance 1": ["no.csv: cannot be read: there is no such file"],
+    "move.toml --track move.toml --tolerance 1": ["move.toml: line "],
+    "move.toml --rope-length 5": ["--rope-length: unknown key"],
+    "crane.toml --target 1": ["crane.toml: --rope-length or frequency: exactly one is needed"],
+    "hook.toml --target 1 --rope-length 5": [
+        "hook.toml: a load below a hook, or a drive that feels the load"
+    ],
+    "broken.toml": ["broken.toml: not valid TOML"],
+    "odd.toml": ["odd.toml: [plant] numerato: unknown key", "odd.toml: [plant] numerator: missing"],
+    "none.toml": ["none.toml: cannot be read"],
+}
+
+
+@pytest.mark.parametrize("line", CASES)
+def test_what_is_wrong_is_said_with_its_place(run, tmp_path, line):
+    (tmp_path / "move.toml").write_text(EXAMPLE.read_text())
+    (tmp_path / "crane.toml").write_text(example_text("workshop-crane"))
+    (tmp_path / "hook.toml").write_text(example_text("double-pendulum"))
+    (tmp_path / "broken.toml").write_text("= 1")
+    (tmp_path / "odd.toml").write_text(EXAMPLE.read_text().replace("numerator", "numerato"))
+    done = run("profile", "optimal", *shlex.split(line))
+    assert (done.code, done.out) == (2, "")
+    for message in CASES[line]:
+        assert message in done.err
+
+
+def test_the_page_shows_what_the_program_prints(run, tmp_path):
+    (tmp_path / "time-optimal-oscillator.toml").write_text(EXAMPLE.read_text())
+    (tmp_path / "crane.toml").write_text(example_text("workshop-crane"))
+    shown = re.findall(r"```sh\n(.*?)```\n(?:\n```text\n(.*?)```)?", PAGE, re.DOTALL)
+    assert len(shown) >= 3
+    for lines, output in shown:
+        for line in lines.splitlines():
+            done = run(*shlex.split(line)[1:])
+            assert (done.code, done.err) == (0, ""), line
+        if output:
+            # What is missed by rounding depends on the machine.
+            assert [text for text in done.out.splitlines() if "misses rest" not in text] == [
+                text for text in output.splitlines() if "misses rest" not in text
+            ]
+
+
+def test_every_option_is_in_the_table_of_the_page_and_no_other():
+    command = typer.main.get_command(app).commands["profile"].commands["optimal"]
+    options = {name for parameter in command.params for name in parameter.opts if name.startswith("-")}
+    documented = set(re.findall(r"`(--?[a-z-]+)`", PAGE.partition("## Options")[2]))
+    assert documented == options - {"--help", "-h"}
