@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,14 +45,23 @@ class EvaluatedProgram:
             If the block has other pins than the records have fields.
         """
         block = self._program.instantiate()
-        outputs = np.zeros(inputs.size, dtype=self._outputs)
+        outputs = np.zeros(inputs.size, dtype=_of_dint(self._outputs))
         pins = _in_order(self._program.inputs, inputs.dtype)
         results = _in_order(self._program.outputs, outputs.dtype)
         columns = [inputs[name].tolist() for name in inputs.dtype.names or ()]
         for tick, values in enumerate(zip(*columns, strict=True)):
             found = block.step(dict(zip(pins, values, strict=True)))
             outputs[tick] = tuple(found[name] for name in results)
-        return outputs
+        return outputs.view(self._outputs)
+
+
+def _of_dint(record: np.dtype[np.void]) -> np.dtype[np.void]:
+    """Give the same record with words as a DINT holds them: their bits with a sign."""
+    names = record.names or ()
+    fields: Mapping[str, Any] = record.fields or {}
+    kinds = [np.dtype(np.int32) if fields[name][0] == np.uint32 else fields[name][0] for name in names]
+    places = [fields[name][1] for name in names]
+    return np.dtype({"names": names, "formats": kinds, "offsets": places, "itemsize": record.itemsize})
 
 
 class EvaluatedBlock(EvaluatedProgram):
