@@ -10,21 +10,21 @@ from swayless.codegen.interface import input_pins, output_pins
 from swayless.codegen.names import check_st_names
 from swayless.codegen.pin import Pin
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
-from swayless.codegen.st_parts import BlockLaw, law_of
+from swayless.codegen.st_checksum import StChecksum, checksum_of
+from swayless.codegen.st_diagnostics import bound_strides
+from swayless.codegen.st_functions import function_lines
+from swayless.codegen.st_operator import contactor_names, plan_strides
+from swayless.codegen.st_parts import BlockLaw, law_of, parts_in_use
 from swayless.codegen.st_phase import most_cells_a_tick
 from swayless.codegen.st_rope import st_said
-from swayless.codegen.st_scratch import scratch_of
+from swayless.codegen.st_sections import Section, sections_of
 from swayless.codegen.st_spacing import strides
-from swayless.codegen.st_state import state_of
 from swayless.codegen.st_status import status_names
 from swayless.codegen.st_tables import StTables
 from swayless.codegen.st_types import Constant, StTypes, Table, Variable, bytes_of
-from swayless.controller.diagnostics import NO_DIAGNOSTICS
 from swayless.controller.measured import ROPE
-from swayless.controller.operator_settings import NO_OPTIONS
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.spacing_filter import spacing_of
-from swayless.errors import CodegenError
 
 LOADING = (
     "After a change of this file load it with a cold start: an online change would keep the old tables.",
@@ -48,22 +48,17 @@ class StModel:
     Raises
     ------
     CodegenError
-        If the number type is int32, the block has an optional function, a name is reserved, too long or
-        collides, or a text cannot stand in a comment.
+        If the number type is int32, a name is reserved, too long or collides, or a text cannot stand in a
+        comment.
     """
 
     settings: ShaperSettings
     origin: Provenance
 
     def __post_init__(self) -> None:
-        if self.settings.operator != NO_OPTIONS or self.settings.diagnostics != NO_DIAGNOSTICS:
-            raise CodegenError(
-                "Structured Text: no code yet for steps, switches, distances, contactors, drive feedback, "
-                "tuning, a start from zero and diagnostics; design the block without them"
-            )
         names = [pin.st_name for pin in (*input_pins(self.settings), *output_pins(self.settings))]
         names += [item.st_name for group in (self.st_constants, self.st_tables) for item in group]
-        names += [item.st_name for group in (self.st_state, self.st_scratch) for item in group]
+        names += [variable.st_name for section in self.st_sections for variable in section.variables]
         check_comments(self.settings, self.origin)
         check_st_names(self.name, [f"FB_{self.name}_Shaper", "Initialized", *names])
 
@@ -91,6 +86,16 @@ class StModel:
     def st_law(self) -> BlockLaw:
         """What a tap waits for."""
         return law_of(self.settings)
+
+    @cached_property
+    def parts(self) -> frozenset[str]:
+        """Parts of the law in use, by the names of `parts_in_use`."""
+        return parts_in_use(self.settings)
+
+    @property
+    def st_is_settled(self) -> str:
+        """Condition that nothing is pending."""
+        return "(StillTicks >= LastTicks)" if self.settings.clock is None else "(StillQuanta >= LastQuanta)"
 
     @property
     def row_count(self) -> int:
@@ -126,6 +131,27 @@ class StModel:
         """Last step of the look-up of the spacing; original and modified law only."""
         return len(strides(spacing_of(self.settings))) - 1
 
+    @property
+    def st_last_plan(self) -> int:
+        """Last trial of the search for the speed of a planned move: the largest speed, then each stride."""
+        return len(plan_strides(self.settings))
+
+    @property
+    def st_bound_rows(self) -> int:
+        """Upper bound of a loop over rows, at least 2."""
+        return max(self.row_count, 2)
+
+    @property
+    def st_last_bound_stride(self) -> int:
+        """Last step of the look-up of a bound over the rope; blocks with such bounds only."""
+        assert self.settings.diagnostics.rope_bounds is not None  # noqa: S101 - only such blocks ask
+        return len(bound_strides(self.settings.diagnostics.rope_bounds)) - 1
+
+    @property
+    def st_contactor(self) -> list[str]:
+        """Constants of the speeds that a drive behind contactors knows, rising."""
+        return contactor_names(self.settings)
+
     def st_said(self, text: str) -> str:
         """Say of the measured quantity what a template says of a rope."""
         assert self.settings.rope is not None  # noqa: S101 - only blocks that measure one ask
@@ -156,6 +182,7 @@ class StModel:
             *self._memory,
             *LOADING,
             "",
+            *function_lines(self.settings),
             "Status is the sum of:",
             *(f"  {bit.value} {measured.explain(bit)}" for bit in self.settings.status_bits),
         ]
@@ -163,11 +190,24 @@ class StModel:
 
     @property
     def _work(self) -> str:
+        """What a call does at most, but for the first one of a block that sums up its tables."""
+        divisions = ("no division", "one division")[self._divides]
         if self.settings.is_spaced:
-            return f"{self.most_taps} taps, and a look-up of {self.st_last_stride + 1} steps; no division"
+            steps = self.st_last_stride + 1
+            return f"{self.most_taps} taps, and a look-up of {steps} steps{self._trials}; {divisions}"
         if self.settings.clock is None:
-            return f"{self.most_taps} taps; no division"
-        return f"{self.most_taps} taps of {self.st_most_cells} cells of the ring each; three divisions"
+            return f"{self.most_taps} taps{self._trials}; {divisions}"
+        divisions = ("three divisions", "four divisions")[self._divides]
+        return f"{self.most_taps} taps of {self.st_most_cells} cells of the ring each; {divisions}"
+
+    @property
+    def _trials(self) -> str:
+        return f", {self.st_last_plan + 1} speeds of a planned move" if "plan" in self.parts else ""
+
+    @property
+    def _divides(self) -> bool:
+        """Whether the model of the load divides where the rope changes."""
+        return "sway rope" in self.parts
 
     @property
     def _memory(self) -> list[str]:
@@ -175,7 +215,8 @@ class StModel:
         if not self.settings.is_spaced:
             return []
         tables = sum(table.bytes for table in self.st_tables)
-        state = sum(bytes_of(each.st_type) for each in (*self.st_state, *self.st_scratch))
+        variables = (each for section in self.st_sections for each in section.variables)
+        state = sum(bytes_of(each.st_type) for each in variables)
         return [f"Memory: {state} bytes of variables for each instance, {tables} of tables."]
 
     @property
@@ -207,11 +248,16 @@ class StModel:
         return self._data.tables
 
     @cached_property
+    def st_sections(self) -> list[Section]:
+        """Variables: what lives from call to call, and what a call computes on its way."""
+        return sections_of(self.settings, self.types)
+
+    @property
     def st_state(self) -> list[Variable]:
-        """What lives from call to call."""
-        return state_of(self.settings, self.types)
+        """Variables with a value after power-on."""
+        return [each for section in self.st_sections for each in section.variables if each.st_reset]
 
     @cached_property
-    def st_scratch(self) -> list[Variable]:
-        """What a call computes on its way."""
-        return scratch_of(self.settings, self.types)
+    def st_checksum(self) -> StChecksum:
+        """How the tables are summed up; blocks with design facts only."""
+        return checksum_of(self.settings, self.types)

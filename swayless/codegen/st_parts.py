@@ -44,4 +44,56 @@ def parts_in_use(settings: ShaperSettings) -> frozenset[str]:
         "inching": features.has_inching,
         "waiting": features.has_waiting_rows,
     }
-    return frozenset(name for name, used in parts.items() if used)
+    used = parts | _operator_parts(settings) | _diagnostic_parts(settings)
+    return frozenset(name for name, is_used in used.items() if is_used)
+
+
+def _operator_parts(settings: ShaperSettings) -> dict[str, bool]:
+    """Tell which of the operator's functions there are, and what several of them share."""
+    operator, waits = settings.operator, features_of(settings).has_waiting_rows
+    steps, way = operator.steps is not None, operator.way is not None
+    return {
+        "steps": steps,
+        "way": way,
+        "ahead": steps or way,
+        "plan": (steps or way) and waits,
+        "way and steps": steps and way,
+        "step rows wait": steps and waits,
+        "way rows wait": way and waits,
+        "switches": operator.has_switches,
+        "stop switches": operator.has_stop_switches,
+        "slow switches": operator.slow_command is not None,
+        "anchor": not way or waits or settings.clock is not None,
+        "pending": operator.has_stop_switches or way,
+        "contactor": bool(operator.contactor_commands),
+        "feedback": operator.has_drive_feedback,
+        "halt": operator.has_drive_feedback or operator.has_stop_switches,
+        "tuning": operator.is_tuned,
+        "speed limit": operator.has_speed_limit,
+        "offset": operator.rope_offset is not None,
+        "lock": steps or operator.starts_from_zero,
+        "locked at first": operator.starts_from_zero,
+        "free at first": steps and not operator.starts_from_zero,
+    }
+
+
+def _diagnostic_parts(settings: ShaperSettings) -> dict[str, bool]:
+    """Tell which diagnostics there are, and what they share with the law."""
+    asked, is_phase = settings.diagnostics, settings.clock is not None
+    sway_of_rope = asked.sway is not None and asked.sway.rope is not None
+    is_summed = asked.facts is not None
+    has_pieces = asked.rope_bounds is not None
+    return {
+        "sway": asked.sway is not None,
+        "sway rows": asked.sway is not None and asked.sway.rope is None,
+        "sway rope": sway_of_rope,
+        "phase table": is_phase or sway_of_rope,
+        "quanta of the sway": sway_of_rope and not is_phase,
+        "bounds": has_pieces,
+        "pieces": has_pieces or settings.is_spaced,
+        "tracking": asked.tracking is not None,
+        "facts": is_summed,
+        "inner loop": is_phase or is_summed,
+        "delays": not is_phase and (is_summed or not settings.is_spaced),
+        "row ends": features_of(settings).has_rope_rows or (is_summed and settings.bank.by_rope is not None),
+    }

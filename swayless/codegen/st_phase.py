@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from swayless.codegen import phase_work
+from swayless.codegen.st_diagnostics import table_constants
 from swayless.codegen.st_types import Constant, RealConstant, StTypes, Table, st_table
 from swayless.controller import hoist
 from swayless.controller.hoist_answers import answers, leaning_from
@@ -28,10 +29,10 @@ def phase_constants(settings: ShaperSettings, types: StTypes) -> list[Constant]:
     whole = (
         ("LastCell", last, "last cell of the ring"),
         ("CellCount", last + 1, "cells of the ring"),
-        ("LastTableCell", len(clock.nodes) - 2, "last cell of the phase table"),
     )
     return [
         *(Constant(name, "DINT", str(value), doc) for name, value, doc in whole),
+        *table_constants(clock.nodes, clock.cells_per_unit, types),
         *types.constants(_clock_constants(clock)),
         *types.constants(_hoist_constants(settings)),
     ]
@@ -81,7 +82,6 @@ def most_cells_a_tick(clock: PhaseClock) -> int:
 
 def _clock_constants(clock: PhaseClock) -> list[RealConstant]:
     return [
-        ("CellsPerMetre", clock.cells_per_unit, "[1/m] cells of the phase table"),
         ("Quantum", clock.quantum_rad, "[rad] phase of a quantum"),
         ("PerMostQuanta", 1.0 / clock.most_quanta, "1 / quanta of a tick on the shortest rope"),
         ("PerFewestQuanta", 1.0 / clock.fewest_quanta, "1 / quanta of a tick on the longest rope"),

@@ -16,6 +16,7 @@ STATE = (
     ("real", "Base", "command of the last rest", ZERO, "all"),
     ("real", "Target", "target of the ramp", ZERO, "all"),
     ("real", "Ramped", "ramped command", ZERO, "all"),
+    ("real", "ReferenceNow", "reference, also while a call works on it", ZERO, "all"),
     ("real", "Pending", "sum of the references still to come", ZERO, "fixed"),
     ("real", "Fresh", "the same from the commands of this lap alone", ZERO, "fixed"),
     ("word", "Head", "cell of the newest command", "LastTicks", "ticks"),

@@ -11,7 +11,7 @@ from swayless.controller.status import Status
 
 PARTS_OF_BITS = {
     Status.COMMAND_WAITS: {"waiting", "inching"},
-    Status.BELOW_MINIMUM: {"minimum"},
+    Status.BELOW_MINIMUM: {"minimum", "contactor"},
     Status.INCHING: {"inching"},
 }
 """Parts of the law that set a bit, any of them, where not every block of its kind does."""

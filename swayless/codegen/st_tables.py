@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from swayless.codegen.features import Features
+from swayless.codegen.st_diagnostics import diagnostic_constants, diagnostic_tables
+from swayless.codegen.st_operator import operator_constants, operator_tables
 from swayless.codegen.st_parts import parts_in_use
 from swayless.codegen.st_phase import phase_constants, phase_tables
 from swayless.codegen.st_rope import rope_constants
@@ -49,6 +51,8 @@ class StTables:
             *rope_constants(settings, types),
             *spacing_constants(settings),
             *phase_constants(settings, types),
+            *operator_constants(settings, types),
+            *diagnostic_constants(settings, types),
         ]
 
     def _commands(self) -> list[RealConstant]:
@@ -101,24 +105,25 @@ class StTables:
         tables = (
             ("FirstTaps", "row", [[str(first) for first in firsts]], "First tap of each row.", "all"),
             ("TapCounts", "row", [[str(len(r.amplitudes)) for r in rows]], "Taps of each row.", "all"),
-            ("DelayTicks", "word", lags, "[ticks] Delay of each tap, by row.", "fixed"),
+            ("DelayTicks", "word", lags, "[ticks] Delay of each tap, by row.", "delays"),
             ("LagQuanta", "word", lags, "[quanta] Phase that each tap waits for, by row.", "phase"),
             ("Amplitudes", "real", amplitudes, AMPLITUDES, "all"),
             ("TailTicks", "word", tails, "[ticks] Longest delay of each row.", "ticks"),
             ("TailQuanta", "word", tails, "[quanta] Largest lag of each row.", "phase"),
-            ("MomentTicks", "real", moments, f"[ticks] Sum of amplitude times delay{OF_EACH_ROW}", "fixed"),
+            ("MomentTicks", "real", moments, f"[ticks] Sum of amplitude times delay{OF_EACH_ROW}", "delays"),
             ("MomentQuanta", "real", moments, f"[quanta] Sum of amplitude times lag{OF_EACH_ROW}", "phase"),
             ("ResidualBounds", "real", bounds, "Tolerance of each row.", "all"),
             ("Waits", "bool", waits, WAITS, "waiting"),
-            ("RowShortest", "real", shortest, "[m] Rope below which the next row is wanted.", "rope rows"),
-            ("RowLongest", "real", longest, "[m] Rope above which the row before is wanted.", "rope rows"),
+            ("RowShortest", "real", shortest, "[m] Rope below which the next row is wanted.", "row ends"),
+            ("RowLongest", "real", longest, "[m] Rope above which the row before is wanted.", "row ends"),
         )
         made = [
             st_table(name, types.type_of(kind), values, doc)
             for name, kind, values, doc, part in tables
             if part in self._used
         ]
-        return [*made, *spacing_tables(self._settings, types), *phase_tables(self._settings, types)]
+        others = (spacing_tables, phase_tables, operator_tables, diagnostic_tables)
+        return [*made, *(table for made_by in others for table in made_by(self._settings, types))]
 
 
 AMPLITUDES = "Amplitude of each tap, by row; each row sums to exactly 1."

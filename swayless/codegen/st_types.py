@@ -12,7 +12,10 @@ from swayless.controller.number import NumberType
 from swayless.errors import CodegenError
 
 VALUES_A_LINE = 6
-"""Table values in one line of source."""
+"""Most table values in one line of source."""
+
+LINE_WIDTH = 120
+"""Longest line of source, its indentation of 2 or 4 included."""
 
 ST_REALS = {"double": "LREAL", "float": "REAL"}
 """Structured Text type of each number type."""
@@ -34,6 +37,11 @@ class Variable:
     st_initial: str = ""
     st_reset: str = ""
 
+    @property
+    def st_lines(self) -> tuple[str, ...]:
+        """Declaration in source."""
+        return declared(f"{self.st_name} : {self.st_type}{self.st_initial};", self.st_doc)
+
 
 @dataclass(frozen=True)
 class Constant:
@@ -43,6 +51,11 @@ class Constant:
     st_type: str
     st_literal: str
     doc: str
+
+    @property
+    def st_lines(self) -> tuple[str, ...]:
+        """Declaration in source."""
+        return declared(f"{self.st_name} : {self.st_type} := {self.st_literal};", self.doc)
 
 
 @dataclass(frozen=True)
@@ -100,6 +113,18 @@ class StTypes:
         return f"ARRAY[0..{last}] OF {self.type_of(kind)}"
 
 
+def declared(text: str, doc: str) -> tuple[str, ...]:
+    """Put a comment behind a declaration, or above it where the line would be too long.
+
+    Examples
+    --------
+    >>> declared("Row : DINT;", "row in use")
+    ('Row : DINT; (* row in use *)',)
+    """
+    line, comment = f"{text} (* {doc} *)", f"(* {doc} *)"
+    return (line,) if len(line) <= LINE_WIDTH - 2 else (comment, text)
+
+
 def bytes_of(st_type: str) -> int:
     """Memory that a variable takes.
 
@@ -129,6 +154,19 @@ def st_table(name: str, st_type: str, rows: Sequence[Sequence[str]], doc: str) -
     doc : str
         Comment.
     """
-    chunks = [list(row[i : i + VALUES_A_LINE]) for row in rows for i in range(0, len(row), VALUES_A_LINE)]
-    lines = [", ".join(c) + ("," if i < len(chunks) - 1 else "") for i, c in enumerate(chunks)]
+    chunks: list[str] = []
+    for row in rows:
+        chunks += _chunks(row)
+    lines = [f"{chunk}," for chunk in chunks[:-1]] + chunks[-1:]
     return Table(name, st_type, sum(len(row) for row in rows) - 1, tuple(lines), doc)
+
+
+def _chunks(row: Sequence[str]) -> list[str]:
+    """Break a row of literals into lines: no more values, nor characters, than one may have."""
+    lines: list[list[str]] = [[]]
+    for value in row:
+        full = len(", ".join((*lines[-1], value))) >= LINE_WIDTH - 4
+        if full or len(lines[-1]) == VALUES_A_LINE:
+            lines.append([])
+        lines[-1].append(value)
+    return [", ".join(line) for line in lines]

@@ -34,7 +34,7 @@ CHANGES = [
     ("c", "s->still_ticks += 1u;", "s->still_ticks += 2u;"),
     ("c", "if (s->emergency ||", "if ((s->emergency && s->quick) ||"),
     ("c", "status |= SRTC_GANTRY_SHAPER_ROW_WAITS;", "status |= SRTC_GANTRY_SHAPER_UNSHAPED;"),
-    ("st", "LapSum := Reference;", "LapSum := 0.0;"),
+    ("st", "LapSum := ReferenceNow;", "LapSum := 0.0;"),
     ("st", "StillTicks := StillTicks + 1;", "StillTicks := StillTicks + 2;"),
     ("st", "Status := Bits;", "Status := Bits + 1;"),
 ]
