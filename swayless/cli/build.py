@@ -87,13 +87,19 @@ def build(
     swayless build crane.toml
     swayless build crane.toml -o out/crane --check
     """
+    from swayless.cli.adaptive import build_adaptive
     from swayless.cli.console import failure_in_json, progress
     from swayless.cli.output_directory import check_directory, write_files
     from swayless.cli.verify import all_equal
+    from swayless.machine.adaptive_file import is_adaptive
     from swayless.machine.machine_file import load_axes
 
-    described = load_axes(machine)
     directory = output or Path(machine.stem)
+    if is_adaptive(machine):
+        prove = not no_verify
+        build_adaptive(machine, directory, check=check, prove=prove, compiler=compiler, json=json)
+        return
+    described = load_axes(machine)
     with progress() as show, failure_in_json(wanted=json):
         products = _products(described, directory, show)
         if check:

@@ -47,6 +47,7 @@ def verify(
     swayless verify out/srtc-gantry
     swayless verify crane.json --number float --compiler zig
     """
+    from swayless.cli.adaptive import stored_adaptive, verify_adaptive_directory
     from swayless.cli.console import failure_in_json, print_json, print_table, progress
     from swayless.cli.generate import left_out
     from swayless.cli.wiring import wiring_verdicts
@@ -57,6 +58,9 @@ def verify(
     if path.is_dir():
         if number is not None:
             raise OptionError(["--number: files in a directory have their number type; give a design file"])
+        if (stored := stored_adaptive(path)) is not None:
+            verify_adaptive_directory(path, stored, compiler=compiler, json=json)
+            return
         blocks, wired = _stored(path)
         files = blocks[0][2]
         missing = {name: f"not verified, there is none in {path / name}" for name in files if not files[name]}
@@ -227,7 +231,7 @@ def _stored(directory: Path) -> tuple[list[tuple[DesignFile, ShaperSettings, Cod
     if not designs:
         found = "holds 0 files *.design.json"
         raise FileError([f"{directory}: {found}; give a directory that `build` wrote, or a design file"])
-    files = {name: _code(directory / name) for name in TARGETS}
+    files = {name: code_in(directory / name) for name in TARGETS}
     if not any(files.values()):
         raise FileError([f"{directory}: holds no generated code in {' or '.join(TARGETS)}"])
     if len(designs) == 1:
@@ -254,7 +258,19 @@ def _of_axis(name: str, files: tuple[GeneratedFile, ...]) -> tuple[GeneratedFile
     return tuple(file for file in files if f"{name}_" in file.path)
 
 
-def _code(folder: Path) -> tuple[GeneratedFile, ...]:
+def code_in(folder: Path) -> tuple[GeneratedFile, ...]:
+    """Read the code in a folder that `build` wrote.
+
+    Parameters
+    ----------
+    folder : Path
+        Of one target; none is there where the folder is not.
+
+    Raises
+    ------
+    FileError
+        If a file cannot be read or is not ASCII.
+    """
     from swayless.codegen import GeneratedFile
     from swayless.errors import FileError
 

@@ -20,7 +20,7 @@ FOLDER = Path(__file__).parents[3] / "examples"
 
 
 def test_examples_are_the_files_of_the_source_tree() -> None:
-    assert sorted(path.stem for path in FOLDER.glob("*.toml")) == sorted(EXAMPLE_NAMES)
+    assert sorted(path.stem for path in FOLDER.glob("*.toml")) == sorted([*EXAMPLE_NAMES, "adaptive-robot"])
     for name in EXAMPLE_NAMES:
         assert example_text(name) == (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
 

@@ -1,0 +1,172 @@
+"""The machine file of an adaptive shaper: one with a section ``[adaptive]``, and the same as stored in JSON.
+
+Not for: machines whose frequency is designed for (`swayless.machine.machine_file`).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import swayless
+from swayless.controller.adaptive import AdaptiveSettings
+from swayless.controller.number import number_type
+from swayless.errors import ControllerError, FileError
+from swayless.machine.checks import choice, machine_name, number, quantity
+from swayless.machine.controller_section import TICK
+from swayless.machine.machine_file import MAX_BYTES
+from swayless.machine.plant_section import DAMPING, FREQUENCY
+from swayless.machine.problems import Place, Report, Table
+from swayless.machine.source import read_source
+from swayless.plant import Mode
+
+SCHEMA = "swayless.adaptive/1"
+_TIME = quantity("time", 0.0, 1000.0)
+_SIZE = number(1e-6, 1e6)
+_SECTIONS = ("adaptive", "controller")
+
+
+@dataclass(frozen=True)
+class AdaptiveMachine:
+    """A machine with an adaptive shaper.
+
+    Parameters
+    ----------
+    name : str
+        Prefix of every generated symbol.
+    source : str
+        Base name of the machine file.
+    generator : str
+        Name and version of what read it.
+    settings : AdaptiveSettings
+        Every constant of the block.
+    """
+
+    name: str
+    source: str
+    generator: str
+    settings: AdaptiveSettings
+
+
+def is_adaptive(path: Path) -> bool:
+    """Whether a TOML file has a section ``[adaptive]``; whatever else is wrong is for others to report."""
+    try:
+        return "adaptive" in tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
+    except (ValueError, RecursionError):
+        return False
+
+
+def load_adaptive(path: Path) -> AdaptiveMachine:
+    """Load the machine file of an adaptive shaper, or what `adaptive_text` made of one.
+
+    Parameters
+    ----------
+    path : Path
+        TOML, or JSON if its name ends in ``.json``.
+
+    Raises
+    ------
+    FileError
+        With every problem found: file, key, value and what is allowed.
+    """
+    report = Report(str(path))
+    text = read_source(path, max_bytes=MAX_BYTES)
+    try:
+        document = json.loads(text) if path.suffix == ".json" else tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FileError([f"{path}: not valid {path.suffix[1:].upper()}: {error}"]) from error
+    root = Table(document if isinstance(document, dict) else {}, report, "")
+    root.take("schema", choice("schema", [SCHEMA]), SCHEMA)
+    name = root.need("name", machine_name)
+    source = root.take("source", _text, path.name)
+    generator = root.take("generator", _text, f"swayless {swayless.__version__}")
+    tables = {key: Table(root.need(key, _section) or {}, report, f"[{key}] ") for key in _SECTIONS}
+    root.close()
+    settings = _read_settings(tables["adaptive"], tables["controller"])
+    if report.problems or name is None or source is None or generator is None or settings is None:
+        raise FileError(report.problems)
+    return AdaptiveMachine(name, source, generator, settings)
+
+
+def _text(value: object, place: Place) -> str | None:
+    """Take a text."""
+    if isinstance(value, str):
+        return value
+    place.wrong(value, "must be a text")
+    return None
+
+
+def _section(value: object, place: Place) -> dict[str, object] | None:
+    if isinstance(value, dict):
+        return value
+    place.wrong(value, "must be a section")
+    return None
+
+
+def _read_settings(table: Table, controller: Table) -> AdaptiveSettings | None:
+    # A value that is missing or wrong is None here, and a problem in the report.
+    tick_s: Any = controller.need("tick", TICK)
+    kind: Any = controller.take("number", choice("number type", ("double", "float")), "double")
+    delay_s: Any = table.need("delay", _TIME)
+    cycle_s: Any = table.need("cycle", _TIME)
+    lag_s: Any = table.take("lag", _TIME, 0.0)
+    values: dict[str, Any] = {
+        "max_command": table.need("max_command", _SIZE),
+        "vibration_scale": table.need("vibration_scale", _SIZE),
+        "max_reference": table.take("max_reference", _SIZE, None),
+        "dead_zone_ratio": table.take("dead_zone", number(0.0, 1.0), 0.001),
+    }
+    frequency_hz: Any = table.take("frequency", FREQUENCY, None)
+    damping_ratio: Any = table.take("damping_ratio", DAMPING, 0.0)
+    table.close()
+    controller.close()
+    if table.report.problems:
+        return None
+    values["mode"] = None if frequency_hz is None else Mode(frequency_hz, damping_ratio)
+    delay_ticks = round(delay_s / tick_s)
+    if abs(delay_s - delay_ticks * tick_s) > 1e-9 * delay_s:
+        table.place("delay").wrong(delay_s, f"must be a whole number of ticks of {tick_s:g} s")
+        return None
+    ticks = {"cycle_ticks": max(1, round(cycle_s / tick_s)), "lag_ticks": math.ceil(lag_s / tick_s - 1e-9)}
+    try:
+        return AdaptiveSettings(delay_ticks, tick_s, **values, **ticks, number=number_type(kind))
+    except ControllerError as error:
+        table.place("").problem(str(error))
+        return None
+
+
+def adaptive_text(machine: AdaptiveMachine) -> str:
+    """Store a machine in JSON, in SI, as `load_adaptive` reads it.
+
+    Parameters
+    ----------
+    machine : AdaptiveMachine
+        The machine.
+    """
+    settings = machine.settings
+    adaptive: dict[str, object] = {
+        "delay": settings.delay_ticks * settings.tick_s,
+        "cycle": settings.cycle_ticks * settings.tick_s,
+        "lag": settings.lag_ticks * settings.tick_s,
+        "max_command": settings.max_command,
+        "vibration_scale": settings.vibration_scale,
+        "dead_zone": settings.dead_zone_ratio,
+    }
+    if settings.max_reference is not None:
+        adaptive["max_reference"] = settings.max_reference
+    if settings.mode is not None:
+        adaptive["frequency"] = settings.mode.frequency_hz
+        adaptive["damping_ratio"] = settings.mode.damping_ratio
+    document = {
+        "schema": SCHEMA,
+        "name": machine.name,
+        "source": machine.source,
+        "generator": machine.generator,
+        "adaptive": adaptive,
+        "controller": {"tick": settings.tick_s, "number": settings.number.name},
+    }
+    return json.dumps(document, indent=2) + "\n"
