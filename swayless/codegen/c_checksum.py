@@ -44,12 +44,12 @@ FROM_ONE = ("row lower ends", "row upper ends")
 """Tables that in C have a place for row 0, which is not summed."""
 
 ADDERS = {
-    "bool": ("flags", "table[i] ? 1 : 0"),
-    "uint16_t": ("shorts", "(int32_t)table[i]"),
-    "uint32_t": ("words", "(int32_t)table[i]"),
-    "int32_t": ("wholes", "table[i]"),
+    "bool": ("flags", "number ? 1 : 0"),
+    "uint16_t": ("shorts", "(int32_t)number"),
+    "uint32_t": ("words", "(int32_t)number"),
+    "int32_t": ("wholes", "number"),
 }
-"""By type of element: name of the function that sums, and an element as a number of 32 bits."""
+"""By type of element: name of the function that sums, and its element as a number of 32 bits."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,7 @@ class CAdder:
 
     name: str
     c_type: str
+    c_element: str
     c_number: str
 
 
@@ -110,9 +111,11 @@ class CChecked:
     def adders(self) -> list[CAdder]:
         """Functions that sum tables of whole numbers: those that are called."""
         kinds = {self._type_of(table) for table in self._summed if table.name not in COUNTED}
-        adders = [CAdder(name, kind, number) for kind, (name, number) in ADDERS.items() if kind in kinds]
+        adders = [
+            CAdder(name, kind, "table[i]", number) for kind, (name, number) in ADDERS.items() if kind in kinds
+        ]
         if any(table.name in COUNTED for table in self._summed):
-            adders.append(CAdder("counts", "uint32_t", "(int32_t)(table[i + 1u] - table[i])"))
+            adders.append(CAdder("counts", "uint32_t", "table[i + 1u] - table[i]", "(int32_t)number"))
         return adders
 
     @property

@@ -101,6 +101,11 @@ class CModel:
         return self.literal(1)
 
     @property
+    def minus(self) -> str:
+        """What turns a number round: from 0, so that 0 is never -0."""
+        return "-" if self.is_integer else f"{self.zero} - "
+
+    @property
     def half(self) -> str:
         """Literal 1/2, float types only."""
         return self.literal(0.5)

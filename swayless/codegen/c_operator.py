@@ -75,7 +75,7 @@ def _way_constants(way: WaySettings, types: CTypes) -> list[CConstant]:
         ("FARTHEST_WAY", way.farthest, f"{unit}: longer than any stop, and counts for all longer ones"),
         ("WAY_SCALE", way.scale, f"{sums} per {unit}{', scaled' if way.shift else ''}"),
         ("MOST_WAY", way.most, f"{sums}: the farthest way"),
-        ("LEAST_WAY", way.least, f"{sums}: shortest way that is worth leaving rest for"),
+        ("LEAST_WAY", way.least, f"{sums}: least way worth leaving rest for"),
     ]
     if way.shift:
         wide.append(("WAY_UNIT", 1 << way.shift, "WAY_SCALE is so much too large"))

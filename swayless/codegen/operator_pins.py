@@ -21,23 +21,34 @@ def operator_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
         pins += [
             pin("step_forward", "bool", held),
             pin("step_reverse", "bool", held),
-            pin("step_size", "row", "1 to 3: which size; anything else refuses the step", st_initial="1"),
+            pin("step_size", "row", f"1 to 3: a step of {_sizes(settings)}; else none", st_initial="1"),
         ]
     if operator.has_stop_switches:
         made = "true: the stop switch at that end is made; motion towards it ends, the way back is open"
         pins += [pin("stop_forward", "bool", made), pin("stop_reverse", "bool", made)]
     if operator.slow_command is not None:
-        slow = "true: the slow-down switch before that end is made; commands towards it are limited"
+        units = "counts" if settings.number.is_integer else settings.limits.units
+        most = f"{operator.slow_command:.6g} {units}"
+        slow = f"true: the slow-down switch before that end is made; at most {most} towards it"
         pins += [pin("slow_forward", "bool", slow), pin("slow_reverse", "bool", slow)]
     if operator.way is not None:
-        left = "way left to that end when the tick begins; the crane stops before it"
         whole = settings.number.is_integer
+        margin = f"{operator.way.margin:.6g} {'mm' if whole else 'm'}"
+        left = f"way left to that end when the tick begins; it stops {margin} before"
         pins += [
             length_pin("distance_forward", left, is_integer=whole),
             length_pin("distance_reverse", left, is_integer=whole),
             pin("distance_valid", "bool", "false: the distances are not to be believed", st_initial="TRUE"),
         ]
     return tuple(pins)
+
+
+def _sizes(settings: ShaperSettings) -> str:
+    """Name the ways of the steps."""
+    steps, units_per_m_s = settings.operator.steps, settings.limits.units_per_m_s
+    assert steps is not None  # noqa: S101 - only a block with Step Mode asks
+    first, second, third = (f"{float(size) * settings.tick_s / units_per_m_s:.4g}" for size in steps.sizes)
+    return f"{first}, {second} or {third} m"
 
 
 def feedback_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
