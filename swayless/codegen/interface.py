@@ -19,7 +19,8 @@ def input_pins(settings: ShaperSettings) -> tuple[Pin, ...]:
     """
     units = settings.limits.units
     by_rope = settings.bank.by_rope is not None
-    choice = "1 the row of the rope" if by_rope else f"1 to {len(settings.bank.rows)} rows"
+    rows = len(settings.bank.rows)
+    choice = "1 the row of the rope" if by_rope else "1 the row" if rows == 1 else f"1 to {rows} rows"
     pins: tuple[Pin, ...] = (
         pin(
             "enable",

@@ -28,20 +28,22 @@ C_RESERVED = frozenset(
 
 ST_RESERVED = frozenset(
     """
-    abs abstract acos action add and any any_bit any_date any_derived any_elementary any_int any_magnitude
-    any_num any_real any_string array asin at atan atan2 begin bool by byte case char class concat
-    configuration constant continue cos ctd ctu ctud date date_and_time delete dint div do dt dword else
-    elsif en end_action end_case end_class end_configuration end_for end_function end_function_block
-    end_if end_interface end_method end_namespace end_program end_repeat end_resource end_step end_struct
-    end_transition end_type end_var end_while eno eq exit exp expt extends f_edge f_trig false final find
-    for from function function_block ge gt if implements initial_step insert int interface internal
-    interval lt le left len limit lint ln log lreal ltime lword max method mid min mod move mul mux
-    namespace ne non_retain not null of on or overlap override pointer priority private program protected
-    public r_edge r_trig read_only read_write real ref ref_to reference repeat replace resource retain
-    return right rol ror rs sel shl shr sin single sint sqrt sr step string struct sub super tan task then
-    this time time_of_day to tod tof ton tp transition true trunc type udint uint ulint until using usint
-    var var_access var_config var_external var_global var_in_out var_input var_output var_temp while with
-    word wchar wstring xor
+    abs abstract acos action add adr adrinst and any any_bit any_date any_derived any_elementary any_int
+    any_magnitude any_num any_real any_string array asin at atan atan2 begin bitadr bool by byte cal
+    calc calcn case char class concat configuration constant continue cos ctd ctu ctud date
+    date_and_time delete dint div do dt dword else elsif en end_action end_case end_class
+    end_configuration end_for end_function end_function_block end_if end_interface end_method
+    end_namespace end_program end_repeat end_resource end_step end_struct end_transition end_type
+    end_var end_while eno eq exit exp expt extends f_edge f_trig false final find for from function
+    function_block ge gt if implements indexof ini initial_step insert int interface internal interval
+    jmp jmpc jmpcn ld ldn le left len limit lint ln log lreal lt ltime lword max method mid min mod move
+    mul mux namespace ne non_retain not null of on or overlap override params persistent pointer
+    priority private program protected public queryinterface querypointer r_edge r_trig read_only
+    read_write real ref ref_to reference repeat replace resource ret retain retc retcn return right rol
+    ror rs sel shl shr sin single sint sizeof sqrt sr step stn string struct sub super tan task
+    testandset then this time time_of_day to tod tof ton tp transition true trunc trunc_int type udint
+    uint ulint until using usint var var_access var_config var_external var_global var_in_out var_input
+    var_output var_temp wchar while with word wstring xor xsizeof
     """.split()  # noqa: SIM905 - one word a line would fill pages
 )
 """Keywords, types and standard functions of IEC 61131-3 and of IDEs that take more, in lower case."""

@@ -126,9 +126,15 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
     lines += [
         "NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.",
         "Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.",
-        "Wind, off-centre pick-up and a slack rope are beyond what a command can prevent.",
+        f"{_disturbances(settings, provenance)} are beyond what a command can prevent.",
     ]
     return lines
+
+
+def _disturbances(settings: ShaperSettings, provenance: Provenance) -> str:
+    """Name what shakes a load, on a rope or not, however it is commanded."""
+    hangs = provenance.hangs_on_rope or (settings.rope is not None and settings.rope.measured is ROPE)
+    return f"Wind, {'off-centre pick-up and a slack rope' if hangs else 'pushes and a load that slips'}"
 
 
 def _row_lines(row: Row, provenance: Provenance, title: str) -> list[str]:
