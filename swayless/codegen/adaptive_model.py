@@ -77,6 +77,11 @@ class RealConstant:
     text: str
     doc: str
 
+    @property
+    def st_text(self) -> str:
+        """Literal in Structured Text: exponents are upper case."""
+        return self.text.upper()
+
 
 @dataclass(frozen=True)
 class StatusBit:
@@ -262,6 +267,16 @@ class AdaptiveModel:
     def last_cell(self) -> int:
         """Index of the last cell of a ring."""
         return self.settings.ring_length - 1
+
+    @property
+    def cells_ahead(self) -> int:
+        """Cells from the present sample on to that of one delay ago, around the ring."""
+        return self.settings.ring_length - self.settings.delay_ticks
+
+    @property
+    def example_ticks(self) -> int:
+        """Ticks that the example prints: until the command has long settled."""
+        return 4 * self.settings.ring_length
 
     @property
     def ram_bytes(self) -> int:
