@@ -46,7 +46,7 @@ def figure_bytes(figure: Figure, file_format: FigureFormat) -> bytes:
     >>> figure_bytes(figure, "svg")[:13]
     b'<?xml version'
     """
-    title = {"Title": figure.get_suptitle()}
+    title = {"Title": figure.get_suptitle().replace("\n", " ")}
     stream = io.BytesIO()
     with figure_style():
         figure.savefig(stream, format=file_format, metadata={**_METADATA[file_format], **title})

@@ -13,7 +13,9 @@ import matplotlib.style
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
+from matplotlib.textpath import text_to_path
 
 INK = "#222222"
 GREY = "#767676"
@@ -30,6 +32,10 @@ FIGURE_WIDTH_IN = 7.5
 
 _USUAL_LABEL_LENGTH = 16
 _CHARACTER_WIDTH_IN = 0.075  # of the usual letter of 9 points
+_TITLE_FONT = FontProperties(family="DejaVu Sans", size=11.0, weight="bold")
+_TITLE_LINE_IN = 0.19
+_MARGIN_IN = 0.07
+_POINTS_PER_IN = 72.0
 
 _RC: dict[str, Any] = {
     "axes.axisbelow": True,
@@ -45,8 +51,6 @@ _RC: dict[str, Any] = {
     "axes.titlelocation": "left",
     "axes.unicode_minus": False,
     "figure.dpi": 100.0,
-    "figure.titlesize": 11.0,
-    "figure.titleweight": "bold",
     "font.family": "DejaVu Sans",  # ships with matplotlib: the same shapes on every machine
     "font.size": 9.0,
     "grid.color": GRID,
@@ -109,7 +113,7 @@ def new_figure(
     Parameters
     ----------
     title : str
-        Of the figure; also stored in the file.
+        Of the figure; also stored in the file. A long one breaks into lines, for which the figure is higher.
     panel_heights_in : sequence of float
         Height of each panel in inches, from the top.
     labels : sequence of str
@@ -119,11 +123,26 @@ def new_figure(
     """
     beyond = max(0, max(map(len, labels), default=0) - _USUAL_LABEL_LENGTH)
     width_in = FIGURE_WIDTH_IN + 2.0 * _CHARACTER_WIDTH_IN * beyond
-    figure = Figure(figsize=(width_in, sum(panel_heights_in)), layout="constrained")
-    figure.suptitle(title, x=0.07 / width_in, ha="left")
+    lines = _lines(title, width_in - 2.0 * _MARGIN_IN)
+    height_in = sum(panel_heights_in) + _TITLE_LINE_IN * (len(lines) - 1)
+    figure = Figure(figsize=(width_in, height_in), layout="constrained")
+    figure.suptitle("\n".join(lines), x=_MARGIN_IN / width_in, ha="left", font=_TITLE_FONT)
     count = len(panel_heights_in)
     panels = figure.subplots(count, 1, sharex=sharex, squeeze=False, height_ratios=panel_heights_in)
     return figure, list(panels[:, 0])
+
+
+def _lines(title: str, width_in: float) -> list[str]:
+    """Break a title between words into lines that are no wider."""
+    lines = [""]
+    for word in title.split():
+        longer = f"{lines[-1]} {word}".lstrip()
+        points, *_ = text_to_path.get_text_width_height_descent(longer, _TITLE_FONT, ismath=False)
+        if lines[-1] and points > width_in * _POINTS_PER_IN:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
 
 
 def legend_beside(axes: Axes, lines: Sequence[Line2D]) -> None:

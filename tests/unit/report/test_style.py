@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 
-from swayless.report.style import ALARM, line_style, new_figure
+import pytest
+
+from swayless.report.style import ALARM, figure_style, line_style, new_figure
 
 
 def test_thirty_designs_differ_in_colour_or_dashes_and_neighbours_in_both() -> None:
@@ -24,3 +26,17 @@ def test_long_names_widen_the_figure() -> None:
     wide, _ = new_figure("title", [1.0, 2.0], labels=["short", "a name of more than sixteen letters"])
     assert usual.get_size_inches().tolist() == [7.5, 3.0]
     assert wide.get_size_inches()[0] > 9.0
+
+
+@pytest.mark.parametrize("letter", ["n", "N"])
+def test_long_titles_break_within_the_figure_and_leave_the_panels_their_height(letter: str) -> None:
+    with figure_style():
+        usual, (panel,) = new_figure("title", [3.0])
+        figure, (below,) = new_figure(" ".join([letter * 6] * 25), [3.0])
+        for each in (usual, figure):
+            each.draw_without_rendering()
+    extent = figure.texts[0].get_window_extent()
+    assert 0.0 < extent.x0 < extent.x1 < 750.0  # of 7.5 in, at 100 dots an inch
+    assert figure.get_suptitle().split() == [letter * 6] * 25
+    # 2 %: the room of a line is that of the usual one.
+    assert below.get_window_extent().height == pytest.approx(panel.get_window_extent().height, rel=0.02)
