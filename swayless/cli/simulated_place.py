@@ -5,6 +5,7 @@ Not for: choosing places (`swayless.cli.simulation`).
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,6 +44,30 @@ def is_arm(plant: PlantRecord) -> bool:
     return plant.kind not in {"crane", "double_pendulum"}
 
 
+def shown(plant: PlantRecord, place: float) -> float:
+    """Give a position as people read it: angles, and how fast they change, in degrees; all else as it is.
+
+    Parameters
+    ----------
+    plant : PlantRecord
+        From the design file.
+    place : float
+        A rope, a position or its speed, as the design has it.
+    """
+    return math.degrees(place) if shown_unit(plant) == "deg" else place
+
+
+def shown_unit(plant: PlantRecord) -> str:
+    """Give the unit of what `shown` gives: m of a rope or a position, or degrees.
+
+    Parameters
+    ----------
+    plant : PlantRecord
+        From the design file.
+    """
+    return "m" if plant.position is None or plant.position.unit == "m" else "deg"
+
+
 def place_head(plant: PlantRecord) -> str:
     """Give the head of the column with the places.
 
@@ -52,7 +77,7 @@ def place_head(plant: PlantRecord) -> str:
         From the design file.
     """
     if plant.position is not None:
-        return f"position [{plant.position.unit}]"
+        return f"position [{shown_unit(plant)}]"
     return "frequency [Hz]" if is_arm(plant) else "rope [m]"
 
 
@@ -67,9 +92,9 @@ def place_text(plant: PlantRecord, site: Site) -> str:
         Where it stands, or from where to where it goes.
     """
     if site.hoist is not None:
-        return f"{site.hoist.from_m:.4g} to {site.hoist.to_m:.4g}"
+        return f"{shown(plant, site.hoist.from_m):.4g} to {shown(plant, site.hoist.to_m):.4g}"
     as_given = plant.position is not None or not is_arm(plant)
-    return f"{site.length_m if as_given else pendulum_frequency_hz(site.length_m):.4g}"
+    return f"{shown(plant, site.length_m) if as_given else pendulum_frequency_hz(site.length_m):.4g}"
 
 
 def place_unit(plant: PlantRecord) -> str:
@@ -81,5 +106,5 @@ def place_unit(plant: PlantRecord) -> str:
         From the design file.
     """
     if plant.position is not None:
-        return plant.position.unit
+        return shown_unit(plant)
     return "Hz" if is_arm(plant) else "m of rope"

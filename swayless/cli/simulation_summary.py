@@ -15,7 +15,7 @@ import numpy as np
 from swayless.cli.console import per_cent, print_line, print_table
 from swayless.cli.driven_summary import gain_document, gain_lines
 from swayless.cli.simulated_control import rope_of
-from swayless.cli.simulated_place import is_arm, place_head, place_text, place_unit
+from swayless.cli.simulated_place import is_arm, place_head, place_text, place_unit, shown, shown_unit
 from swayless.plant import pendulum_frequency_hz
 
 if TYPE_CHECKING:
@@ -87,15 +87,16 @@ def _row(design: DesignFile, case: Case, within_m: float) -> list[str]:
 
 def move_text(design: DesignFile, simulation: Simulation) -> str:
     """Say what was asked for: how long, how fast, with which hoist or sweep, and wind."""
-    move, position = simulation.move, design.plant.position
-    what, unit = ("hoist", "m") if position is None else ("sweep", position.unit)
+    move, plant = simulation.move, design.plant
+    what, unit = "hoist" if plant.position is None else "sweep", shown_unit(plant)
     press = f"{simulation.held_s:g} s" if move.distance_m is None else f"{move.distance_m:g} m"
     text = f"{press} at {simulation.speed_m_s:.4g} m/s"
     if move.start_s:
         text += f" from {move.start_s:g} s"
     if move.hoist is not None:
         way = move.hoist
-        text += f", {what} {way.from_m:g} to {way.to_m:g} {unit} at {way.rate_m_s:g} {unit}/s"
+        low, high, rate = (shown(plant, value) for value in (way.from_m, way.to_m, way.rate_m_s))
+        text += f", {what} {low:g} to {high:g} {unit} at {rate:g} {unit}/s"
         text += f" from {way.start_s:g} s"
     if move.wind is not None:
         text += f", wind {move.wind.push_m_s2:g} m/s2 from {move.wind.start_s:g} s"
@@ -160,7 +161,7 @@ def _case_document(design: DesignFile, case: Case, within_m: float) -> dict[str,
 def record_text(design: DesignFile, cases: list[Case]) -> str:
     """Give a record of one rope as CSV: time, rope, and reference, trolley and sway of every case.
 
-    Of an arm it has frequencies in the place of ropes.
+    Of an arm it has frequencies in the place of ropes, and behind them positions, if the arm has some.
 
     Parameters
     ----------
@@ -173,6 +174,10 @@ def record_text(design: DesignFile, cases: list[Case]) -> str:
     heads, columns = ["time_s", "rope_length_m"], [run.time_s, run.rope_length_m]
     if is_arm(design.plant):
         heads[1], columns[1] = "frequency_hz", pendulum_frequency_hz(1.0) / np.sqrt(run.rope_length_m)
+    if design.plant.position is not None:
+        site = cases[0].site
+        heads.append(f"position_{design.plant.position.unit}")
+        columns.append(rope_of(site.hoist, site.length_m, run.time_s))
     for case in cases:
         name = case.contender.name.replace(",", "")
         heads += [f"{name}: {what}" for what in ("reference_m_s", "trolley_m", "sway_m")]
@@ -198,6 +203,7 @@ def figures(design: DesignFile, simulation: Simulation) -> Iterator[Figure]:
         held = (time_s >= simulation.pressed_s) & (time_s < simulation.pressed_s + simulation.held_s)
         plant = design.plant
         where = "" if site.hoist is not None else f", {place_text(plant, site)} {place_unit(plant)}"
+        places_m = None if site.hoist is None else rope_of(site.hoist, 0.0, time_s)
         yield simulation_figure(
             f"{design.name}: {move_text(design, simulation)}{where}",
             time_s,
@@ -213,13 +219,13 @@ def figures(design: DesignFile, simulation: Simulation) -> Iterator[Figure]:
                 for case in cases
                 if case.contender.knob is not None
             ],
-            places=None if site.hoist is None else (_place_name(plant), rope_of(site.hoist, 0.0, time_s)),
+            places=None if places_m is None else (_place_name(plant), shown(plant, 1.0) * places_m),
             tolerance=_tolerance(design, cases),
         )
 
 
 def _place_name(plant: PlantRecord) -> str:
-    return "Rope (m)" if plant.position is None else f"Position ({plant.position.unit})"
+    return "Rope (m)" if plant.position is None else f"Position ({shown_unit(plant)})"
 
 
 def _tolerance(design: DesignFile, cases: list[Case]) -> tuple[str, float] | None:

@@ -64,12 +64,20 @@ def test_a_sweep_is_followed_and_drawn(run, arm, tmp_path):
     assert (tmp_path / "moves" / "elbow_arm-move-1-rope-1.svg").stat().st_size > 10_000
 
 
-def test_angles_are_read_in_degrees_and_simulated_in_radians(run, arm):
+def test_angles_are_read_and_shown_in_degrees_and_simulated_and_recorded_in_radians(run, arm, tmp_path):
     turning(arm)
     sweep = ("--sweep", "-30 deg to 40 deg at 20 deg/s")
     (case,) = [case for case in simulated(run, "arm.toml", *sweep) if case["knob"] == 1]
     assert case["position"] == pytest.approx([-np.pi / 6, np.pi * 2 / 9], abs=1e-9)
-    assert "position [rad]" in run("simulate", "arm.toml").out
+    assert "position [deg]" in run("simulate", "arm.toml").out
+    done = run("simulate", "arm.toml", *sweep, "-o", "moves")
+    assert "sweep -30 to 40 deg at 20 deg/s from 0 s" in done.out
+    assert "  -30 to 40  " in done.out
+    (record,) = (tmp_path / "moves").glob("*.csv")
+    names, *lines = record.read_text().splitlines()
+    assert names.startswith("time_s,frequency_hz,position_rad,")
+    places = [float(line.split(",")[2]) for line in lines]
+    assert (places[0], places[-1]) == pytest.approx((-np.pi / 6, np.pi * 2 / 9), abs=1e-8)  # nine digits
 
 
 @pytest.mark.parametrize(
