@@ -45,7 +45,7 @@ class EvaluatedProgram:
             If the block has other pins than the records have fields.
         """
         block = self._program.instantiate()
-        outputs = np.zeros(inputs.size, dtype=_of_dint(self._outputs))
+        outputs = np.zeros(inputs.size, dtype=of_dint(self._outputs))
         pins = _in_order(self._program.inputs, inputs.dtype)
         results = _in_order(self._program.outputs, outputs.dtype)
         columns = [inputs[name].tolist() for name in inputs.dtype.names or ()]
@@ -55,8 +55,19 @@ class EvaluatedProgram:
         return outputs.view(self._outputs)
 
 
-def _of_dint(record: np.dtype[np.void]) -> np.dtype[np.void]:
-    """Give the same record with words as a DINT holds them: their bits with a sign."""
+def of_dint(record: np.dtype[np.void]) -> np.dtype[np.void]:
+    """Give the same record with words as a DINT holds them: their bits with a sign.
+
+    Parameters
+    ----------
+    record : dtype
+        Layout of outputs.
+
+    Examples
+    --------
+    >>> of_dint(np.dtype([("status", np.uint32)]))["status"]
+    dtype('int32')
+    """
     names = record.names or ()
     fields: Mapping[str, Any] = record.fields or {}
     kinds = [np.dtype(np.int32) if fields[name][0] == np.uint32 else fields[name][0] for name in names]

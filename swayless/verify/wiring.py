@@ -24,6 +24,7 @@ from swayless.verify.operator_stimulus import touched
 from swayless.verify.records import output_dtype
 from swayless.verify.reference_run import run_reference
 from swayless.verify.rope_stimulus import hoisted, misread
+from swayless.verify.st_run import of_dint
 from swayless.verify.stimulus import bad_input, joystick, knob, stops
 from swayless.verify.structured_text import load
 from swayless.verify.toolchain import Compiler
@@ -99,13 +100,14 @@ def verify_st_wiring(axes: Sequence[WiredAxis], wiring: Sequence[GeneratedFile])
     blocks = [axis.block for axis in axes]
     inputs = _inputs(blocks)
     columns = _columns(blocks, inputs)
-    found = [np.zeros(inputs[0].size, output_dtype(block.settings)) for block in blocks]
+    records = [output_dtype(block.settings) for block in blocks]
+    found = [np.zeros(inputs[0].size, of_dint(record)) for record in records]
     for tick in range(inputs[0].size):
         outputs = outer.step({name: column[tick] for name, column in columns.items()})
         for block, out in zip(blocks, found, strict=True):
             out[tick] = tuple(outputs[block.st_axis + pin.st_name] for pin in block.output_pins)
-    for block, own, out in zip(blocks, inputs, found, strict=True):
-        verdict = compare(run_reference(block.settings, own), out)
+    for block, own, record, out in zip(blocks, inputs, records, found, strict=True):
+        verdict = compare(run_reference(block.settings, own), out.view(record))
         yield Verdict("wiring in ST by evaluator", f"{block.axis}, all inputs moving", out.size, verdict)
 
 

@@ -188,7 +188,7 @@ class Trolley:
     def __init__(self, workshop):
         settings, origin = workshop
         (block,) = generate(settings, origin, "st")
-        (wiring,) = blocks(BLOCK, "iecst")
+        wiring, _ = blocks(BLOCK, "iecst")
         self.block = load(block.text + wiring).instantiate()
         self.tick_s, self.full = settings.tick_s, float(settings.limits.max_command)
         self.position, self.speeds = 0.0, []
@@ -253,7 +253,7 @@ def test_the_wiring_in_c_compiles_with_the_flags_given_and_gives_the_reference(w
     settings, origin = workshop
     for file in generate(settings, origin, "c"):
         (tmp_path / file.path).write_text(file.text)
-    (wiring,) = blocks(BLOCK, "c")
+    wiring, _ = blocks(BLOCK, "c")
     (tmp_path / "main.c").write_text(wiring + HARNESS)
     program = tmp_path / "main.exe"
     sources = [tmp_path / "main.c", tmp_path / "workshop_crane_shaper.c"]

@@ -30,7 +30,7 @@
  *
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
  * Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.
- * Wind, off-centre pick-up and a slack rope are beyond what a command can prevent.
+ * Wind, pushes and a load that slips are beyond what a command can prevent.
  */
 #ifndef ELBOW_ARM_SHAPER_H
 #define ELBOW_ARM_SHAPER_H
@@ -97,7 +97,7 @@ typedef struct {
     bool emergency_stop; ///< reference 0 at once; latched until the command is 0
     bool quick_stop; ///< unshaped stop on its own ramp; latched until at rest and the command is 0
     elbow_arm_real_t command; ///< [m/s] wanted speed; clamped to the maximum, and not finite counts as 0
-    uint8_t selector; ///< 0 unshaped, 1 to 1 rows; anything else keeps the last valid one
+    uint8_t selector; ///< 0 unshaped, 1 the row; anything else keeps the last valid one
     elbow_arm_real_t position_m; ///< [m] 3.02 to 3.94: clamped; the last one holds if it cannot be true
     elbow_arm_real_t position_speed_m_s; ///< [m/s] rate of change of the position, positive when it grows; clamped
     bool position_valid; ///< false: the position is not to be believed

@@ -98,7 +98,7 @@ typedef struct {
     bool emergency_stop; ///< reference 0 at once; latched until the command is 0
     bool quick_stop; ///< unshaped stop on its own ramp; latched until at rest and the command is 0
     hoisting_gantry_real_t command; ///< [m/s] wanted speed; clamped to the maximum, and not finite counts as 0
-    uint8_t selector; ///< 0 unshaped, 1 to 1 rows; anything else keeps the last valid one
+    uint8_t selector; ///< 0 unshaped, 1 the row; anything else keeps the last valid one
     hoisting_gantry_real_t rope_length_m; ///< [m] 3 to 9: clamped; the last one holds if it cannot be true
     hoisting_gantry_real_t hoist_speed_m_s; ///< [m/s] rate of change of the length, positive when the load sinks; clamped
     bool rope_length_valid; ///< false: the rope length is not to be believed

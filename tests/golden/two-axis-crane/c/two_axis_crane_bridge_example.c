@@ -20,8 +20,14 @@ int main(void)
     input.selector = 1u;
     input.rope_length_m = 9.0;
     input.rope_length_valid = true;
+    input.step_size = 1u;
+    input.distance_forward_m = 34.5;
+    input.distance_reverse_m = 34.5;
+    input.distance_valid = true;
+    input.drive_ready = true;
+    input.speed_limit = 1.0;
     for (tick = 0u; tick < 2300u; ++tick) {
-        input.command = (tick < 900u) ? 1.0 : 0.0;
+        input.command = ((tick > 0u) && (tick < 900u)) ? 1.0 : 0.0;
         two_axis_crane_bridge_shaper_step(&shaper, &input, &output);
         (void)printf("%lu %.9g %.9g %.9g\n", tick, input.command, output.reference,
             output.stop_distance);
