@@ -17,7 +17,7 @@ from swayless.verify.stimulus import soak
 from tests.compiled.operated_blocks import BLOCKS
 from tests.unit.codegen.test_provenance import ORIGIN
 
-HASTY = replace(find_compiler(), strict=("-std=c99", "-O2", "-ffp-contract=off"))
+HASTY = replace(find_compiler(), strict=("-std=c99", "-O1", "-ffp-contract=off"))
 """Optimised all the same: the compiler must not know better what stands in a table than the memory does."""
 
 TABLE = re.compile(r"static const (\w+) crane_(\w+)\[\d+\] = \{\n(.*?)\n\};", re.DOTALL)
@@ -53,9 +53,7 @@ def with_other_sums(settings):
     )
 
 
-@pytest.mark.parametrize(
-    ("name", "number", "tables"), [("mixed", "int32", 11), ("by rope", "double", 13), ("phase", "double", 10)]
-)
+@pytest.mark.parametrize(("name", "number", "tables"), [("mixed", "int32", 11), ("by rope", "double", 13)])
 def test_a_changed_bit_of_any_table_stops_the_block_for_ever(name, number, tables):
     settings = BLOCKS[name](number)
     inputs = soak(settings, ticks=20).inputs
