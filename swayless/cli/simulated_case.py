@@ -30,6 +30,8 @@ class Contender:
         Position of the selector; None for a ramp without the block.
     reference_m_s : ndarray, shape (ticks,)
         For the drive; 0 from there on.
+    status : int
+        Every status bit that the block showed; 0 for a ramp without one.
     for_pendulum : bool
         Whether the row was designed as if the drive did not feel the load, which it does.
     """
@@ -37,6 +39,7 @@ class Contender:
     name: str
     knob: int | None
     reference_m_s: FloatArray
+    status: int = 0
     for_pendulum: bool = False
 
 
@@ -127,6 +130,8 @@ class Simulation:
         When the button was pressed, and for how long.
     cases : tuple of Case
         Rope by rope, in each the contenders.
+    remarks : tuple of str
+        Where the move leaves what the machine file allows, and what the block said of it.
     """
 
     move: MoveSection
@@ -134,6 +139,7 @@ class Simulation:
     pressed_s: float
     held_s: float
     cases: tuple[Case, ...]
+    remarks: tuple[str, ...] = ()
 
     def sites(self) -> Iterator[tuple[Site, list[Case]]]:
         """Give each rope with its cases."""

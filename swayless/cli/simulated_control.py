@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 MOST_TICKS = 200_000
 """Longest move that is simulated."""
+
+_ROUNDING = 1e-9  # of the longest rope: what a design file rounds to 12 digits is read as it stands there
 
 
 @dataclass(frozen=True)
@@ -109,9 +111,16 @@ def hoist_end_s(hoist: Hoist | None) -> float:
     return 0.0 if hoist is None else hoist.start_s + abs(hoist.to_m - hoist.from_m) / hoist.rate_m_s
 
 
+class Shaped(NamedTuple):
+    """What a block made of a press: references in m/s, tick by tick, and all status bits that it showed."""
+
+    reference_m_s: FloatArray
+    status: int
+
+
 def shaped_reference(
     settings: ShaperSettings, knob: int, press: Press, speed_m_s: float, rope: tuple[Hoist | None, float]
-) -> FloatArray:
+) -> Shaped:
     """Run the controller through a press, until the reference rests at 0.
 
     Parameters
@@ -129,14 +138,15 @@ def shaped_reference(
 
     Returns
     -------
-    ndarray, shape (ticks,)
-        References in m/s; after the last one they are 0.
+    Shaped
+        After the last reference they are 0.
     """
     shaper, per_m_s = CommandShaper(settings), settings.limits.units_per_m_s
     released = undisturbed(settings)._replace(selector=knob)
     held = released._replace(command=_scalar(settings, speed_m_s * per_m_s))
     readings = _readings(settings, press, *rope)
     references: list[float] = []
+    status = 0
     for tick in count(-1):  # the tick before the move is one of 0, for which some blocks wait
         inputs = held if press.first <= tick < press.last else released
         if readings:
@@ -144,24 +154,31 @@ def shaped_reference(
             inputs = inputs._replace(rope_length=length, hoist_speed=speed)
         output = shaper.step(inputs)
         references.append(float(output.reference))
+        status |= int(output.status) if tick >= 0 else 0
         if tick >= max(press.last, len(readings)) and output.settled and output.reference == 0:
             break
-    return np.array(references[1:]) / per_m_s
+    return Shaped(np.array(references[1:]) / per_m_s, status)
 
 
 def _readings(
     settings: ShaperSettings, press: Press, hoist: Hoist | None, length_m: float
 ) -> list[tuple[Any, Any]]:
     """Rope length as each tick begins, and its change per second, until the hoist stands; [] without one."""
-    if settings.rope is None:
+    own = settings.rope
+    if own is None:
         return []
     tick_s, per_m = settings.tick_s, MM_PER_M if settings.number.is_integer else 1
     last = max(press.last, math.ceil(hoist_end_s(hoist) / tick_s)) + 2
     rope_m = rope_of(hoist, length_m, tick_s * np.arange(last + 1.0))
-    speed_m_s = np.diff(rope_m) / tick_s
+    speed = per_m * np.diff(rope_m) / tick_s
+    # The ends of the range are rounded too: a reading that only rounding puts beyond one is that end.
+    length = per_m * rope_m[:-1]
+    within = np.clip(length, float(own.shortest), float(own.longest))
+    rounding = 1.0 if settings.number.is_integer else _ROUNDING * float(abs(within).max())
+    length = np.where(abs(length - within) < rounding, within, length)
     return [
-        (_scalar(settings, length), _scalar(settings, speed))
-        for length, speed in zip((per_m * rope_m[:-1]).tolist(), (per_m * speed_m_s).tolist(), strict=True)
+        (_scalar(settings, value), _scalar(settings, rate))
+        for value, rate in zip(length.tolist(), speed.tolist(), strict=True)
     ]
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +23,7 @@ from swayless.cli.simulated_control import (
 )
 from swayless.cli.simulated_place import pendulums_m
 from swayless.cli.simulated_plant import case_until, simulated_plant
+from swayless.cli.simulated_remarks import remarks
 from swayless.errors import ControllerError
 from swayless.plant import pendulum_frequency_hz, pendulum_rope_length_m
 from swayless.plant.simulation import Trajectory, one_cosine_gust
@@ -92,6 +94,7 @@ def simulate_move(
             Case(site, contender, run, left, pressed_s, speed_m_s)
             for (site, contender), (run, left) in zip(fields, cases, strict=True)
         ),
+        remarks(design, settings, move, fields),
     )
 
 
@@ -151,19 +154,16 @@ def _on_site(
 ) -> list[Contender]:
     knobs = move.rows or tuple(range(1, settings.last_selector + 1))
     names = ["unshaped", *(_row_name(design, settings, knob) for knob in knobs)]
-    shaped = [
-        Contender(name, knob, _to_rest(shaped_reference(settings, knob, press, speed_m_s, _rope(site))))
-        for knob, name in zip((0, *knobs), names, strict=True)
-    ]
+
+    def by_block(block: ShaperSettings, name: str, knob: int) -> Contender:
+        reference_m_s, status = shaped_reference(block, knob, press, speed_m_s, _rope(site))
+        return Contender(name, knob, _to_rest(reference_m_s), status)
+
+    shaped = [by_block(settings, name, knob) for knob, name in zip((0, *knobs), names, strict=True)]
     naive = [
-        Contender(
-            f"{item.name} {FOR_PENDULUM}",
-            item.knob,
-            _to_rest(shaped_reference(pendulum, item.knob, press, speed_m_s, _rope(site))),
-            for_pendulum=True,
-        )
-        for item in shaped[1:]
-        if pendulum is not None and item.knob is not None
+        replace(by_block(pendulum, f"{name} {FOR_PENDULUM}", knob), for_pendulum=True)
+        for knob, name in zip(knobs, names[1:], strict=True)
+        if pendulum is not None
     ]
     if design.drive.contactor:
         return [*shaped, *naive]

@@ -16,6 +16,7 @@ from swayless.cli.console import per_cent, print_line, print_table
 from swayless.cli.driven_summary import gain_document, gain_lines
 from swayless.cli.simulated_control import rope_of
 from swayless.cli.simulated_place import is_arm, place_head, place_text, place_unit, shown, shown_unit
+from swayless.cli.simulated_remarks import notable
 from swayless.plant import pendulum_frequency_hz
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def print_simulation(design: DesignFile, simulation: Simulation, within_m: float
     )
     rows = [_row(design, case, within_m) for case in simulation.cases]
     print_table(f"{design.name}: {move_text(design, simulation)}", heads, rows)
-    for line in gain_lines(design, simulation):
+    for line in (*gain_lines(design, simulation), *simulation.remarks):
         print_line(line)
 
 
@@ -128,6 +129,7 @@ def simulation_document(design: DesignFile, simulation: Simulation, within_m: fl
         "held_s": simulation.held_s,
         "cases": [_case_document(design, case, within_m) for case in simulation.cases],
         **gain_document(design, simulation),
+        "remarks": list(simulation.remarks),
     }
 
 
@@ -151,6 +153,7 @@ def _case_document(design: DesignFile, case: Case, within_m: float) -> dict[str,
         "moved_by": case.contender.name,
         "knob": case.contender.knob,
         **({"for_pendulum": True} if case.contender.for_pendulum else {}),
+        "status": [bit.name for bit in notable(case.contender.status)],
         "rope_length_m": ends if on_rope else None,
         **({"position": ends} if has_positions else {}),
         "frequency_hz": None if on_rope else round(hertz, _DIGITS),
