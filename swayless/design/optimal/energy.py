@@ -132,10 +132,12 @@ def _out_of_reach(program: Program, share: float) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Barrier:
-    """min 1/2 |H (v + g)|^2 with A v = b, abs(G v - f) <= r: what every step needs."""
+    """min 1/2 |H (v + g)|^2 with full and banded equalities, abs(G v - f) <= r: what every step needs."""
 
-    equal: csr_array[Any, Any]
-    values: FloatArray
+    ends: FloatArray
+    end_values: FloatArray
+    steps: csr_array[Any, Any]
+    step_values: FloatArray
     form: csr_array[Any, Any]
     centres: FloatArray
     halves: FloatArray
@@ -179,11 +181,15 @@ def _step(
 
     weights = (prices / slacks).sum(axis=0)
     curved = sparse.diags_array(problem.counted) + problem.form.T @ sparse.diags_array(weights) @ problem.form
-    system = sparse.block_array([[curved, problem.equal.T], [problem.equal, None]], format="csc")
+    steps, ends = problem.steps, problem.ends
+    nothing = sparse.csr_array((steps.shape[0], steps.shape[0]))
+    solve = splu(sparse.block_array([[curved, steps.T], [steps, nothing]], format="csc")).solve
     wanted = centre / slacks
     pull = -problem.slope(v) - problem.form.T @ (wanted[0] - wanted[1])
-    missed = problem.values - problem.equal @ v
-    move = splu(system).solve(np.concatenate([pull, missed]))[: v.size]
+    # The few full rows stay out of the banded system, which they would fill.
+    free = solve(np.concatenate([pull, problem.step_values - steps @ v]))[: v.size]
+    answers = solve(np.vstack([ends.T, np.zeros((steps.shape[0], len(ends)))]))[: v.size]
+    move = free - answers @ np.linalg.solve(ends @ answers, ends @ (v + free) - problem.end_values)
     gained = problem.form @ move
     closing = np.stack([gained, -gained])  # what a full step takes off each slack
     dearer = wanted - prices + prices / slacks * closing
@@ -207,9 +213,12 @@ def _barrier(program: Program) -> _Barrier:
     counted = np.zeros(count)
     counted[:n] = 1.0
     inputs = sparse.eye_array(n, count)
+    ends = len(program.orthonormal[0])
     return _Barrier(
-        equal,
-        values,
+        equal[:ends].toarray(),
+        values[:ends],
+        equal[ends:],
+        values[ends:],
         sparse.csr_array(sparse.vstack([inputs, form])),
         np.append(np.zeros(n), centres),
         np.append(np.full(n, program.half), halves),
