@@ -61,7 +61,13 @@ RowOption = Annotated[
     list[str] | None,
     typer.Option("--row", metavar="N", help="Row to run, all unless given; may be given several times."),
 ]
-WithinOption = Annotated[str, typer.Option(metavar="LENGTH", help="The load rests within this of its end.")]
+WithinOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="LENGTH",
+        help="The load rests within this of its end; 50 mm, or 2 % of an arm's unshaped step, unless given.",
+    ),
+]
 DirectoryOption = Annotated[
     Path | None,
     typer.Option("-o", "--output", metavar="DIR", help="Folder for a figure and a record of every rope."),
@@ -78,7 +84,7 @@ def simulate(
     position: PositionOption = None,
     sweep: SweepOption = None,
     row: RowOption = None,
-    within: WithinOption = "50 mm",
+    within: WithinOption = None,
     axis: AxisOption = None,
     output: DirectoryOption = None,
     json: JsonOption = False,
@@ -154,10 +160,11 @@ def _moves(
     of_file: tuple[MoveSection, ...],
     spoken: dict[str, Any],
     row: list[str] | None,
-    within: str,
+    within: str | None,
 ) -> tuple[list[MoveSection], float]:
     """Give the moves to run: the one on the command line, or those of the file, or the usual one."""
     from swayless.cli.option_table import option_table, refuse
+    from swayless.cli.simulated_place import usual_within_m
     from swayless.machine.move_section import MoveSection
     from swayless.machine.plant_section import LENGTH
 
@@ -170,7 +177,7 @@ def _moves(
         if knob > positions:
             problems.append(f"[[move]] {number} row = {knob}: the knob has positions 0 to {positions}")
     refuse(problems)
-    return moves or [MoveSection(rows=asked.rows)], within_m or 0.0
+    return moves or [MoveSection(rows=asked.rows)], within_m or usual_within_m(design)
 
 
 def _asked(

@@ -83,7 +83,7 @@ class Case:
 
     @property
     def residual_m(self) -> float:
-        """How far the load sways when reference and hoist stand."""
+        """Amplitude of the sway when reference and hoist stand: what damping takes from then on left out."""
         return float(self.left.amplitude_m[-1])
 
     @property
@@ -93,7 +93,7 @@ class Case:
 
     @property
     def peak_sway_m(self) -> float:
-        """Largest sway at any time."""
+        """Largest sway at any tick; below `residual_m` if that decays before the load turns."""
         return float(self.run.peak_sway_m)
 
     @property

@@ -65,9 +65,10 @@ def print_note(design: DesignFile, within_m: float) -> None:
     unshaped = "v / w" if is_arm(design.plant) else "v sqrt(L / g)"
     stand = "hoist" if design.plant.position is None else "position"
     print_line(
-        f"left: sway once reference and {stand} stand; %: of {unshaped}, the sway of an unshaped step;"
+        f"left: amplitude of the sway once reference and {stand} stand, before it decays;"
+        f" %: of {unshaped}, the sway of an unshaped step; peak: largest sway at any tick;"
         " stands: from the press until the reference is 0; rests: until the load stays within"
-        f" {_MM * within_m:g} mm of its end"
+        f" {_MM * within_m:.4g} mm of its end"
     )
 
 

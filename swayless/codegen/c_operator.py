@@ -137,6 +137,18 @@ def operator_sums(settings: ShaperSettings, types: CTypes, features: Features) -
     return [CField(kind, name, doc, "", initial) for kind, name, doc, initial in found]
 
 
+def next_row(features: Features) -> list[CField]:
+    """List the row that may take over while the crane moves, where ways to the ends are kept.
+
+    Parameters
+    ----------
+    features : Features
+        Parts of the law in use.
+    """
+    doc = "the one row that may take over in the next tick while the crane moves"
+    return [CField("uint8_t", "next_row", doc, "", "0u")] if features.has_way else []
+
+
 def operator_flags(features: Features) -> list[CField]:
     """List the flags that the functions remember.
 

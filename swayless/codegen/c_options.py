@@ -152,6 +152,11 @@ class COptions:
         return f"!s->row_locked && {settled}" if self._features.has_steps else settled
 
     @property
+    def c_row_to_come(self) -> str:
+        """The row that takes over at rest."""
+        return "s->next_row" if self._features.has_way else "s->wanted_row"
+
+    @property
     def c_and_may_move(self) -> str:
         """Whether the speed limit lets steps move."""
         return f" && (s->speed_limit > {self._types.literal(0)})" if self._features.has_speed_limit else ""

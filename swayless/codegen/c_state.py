@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swayless.codegen.c_diagnostics import diagnostic_members
-from swayless.codegen.c_operator import operator_flags, operator_sums
+from swayless.codegen.c_operator import next_row, operator_flags, operator_sums
 from swayless.codegen.c_phase_state import phase_cells, phase_members, phase_ring, ring_length
 from swayless.codegen.c_rope import c_said, rope_members
 from swayless.codegen.c_spacing import spacing_flags, spacing_members, spacing_ring
@@ -101,6 +101,7 @@ class CState:
             CField("uint8_t", "row", "row in use", "", "0u"),
             CField("uint8_t", "selected_row", "last valid selector", "", "0u"),
             CField("uint8_t", "wanted_row", "row that takes over when settled", "", "0u"),
+            *next_row(features),
             *([CField("uint8_t", "rope_row", "row of the rope", "", "1u")] if self._has_rope_rows else []),
         ]
 

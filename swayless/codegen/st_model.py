@@ -113,6 +113,11 @@ class StModel:
         return max(len(table.amplitudes) for table in self.settings.row_tables)
 
     @property
+    def st_row_to_come(self) -> str:
+        """Row that takes over at rest."""
+        return "NextRow" if self.features.has_way else "WantedRow"
+
+    @property
     def st_last_tap(self) -> int:
         """Upper bound of loops over taps: one released compiler skips loops of a single trip.
 

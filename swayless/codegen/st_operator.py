@@ -19,6 +19,7 @@ OPERATOR_STATE = (
     ("bool", "DriveOff", "the drive was not ready", TRUE, "feedback"),
     ("real", "WayForward", "[{units} times ticks] way left to the end ahead", ZERO, "way"),
     ("real", "WayReverse", "[{units} times ticks] way left to the end behind", ZERO, "way"),
+    ("row", "NextRow", "the one row that may take over while the crane moves", "0", "way"),
     ("bool", "Stepping", "steps run", FALSE, "steps"),
     ("bool", "ArmedForward", "the step button was seen released", FALSE, "steps"),
     ("bool", "ArmedReverse", "the same of the other one", FALSE, "steps"),

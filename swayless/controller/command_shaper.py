@@ -161,7 +161,8 @@ class CommandShaper:
         """Choose the row when settled; ramp, or step; then shape, but never towards a made stop switch."""
         motion, steps = self._motion, self._steps
         if not self._row_is_locked:
-            motion.choose_row(self._wanted_row, command)
+            next_row = None if self._travel is None else self._travel.next_row
+            motion.choose_row(self._wanted_row, command, next_row)
         if steps is not None and steps.is_running:
             self._make_steps(steps)
         else:
@@ -185,8 +186,11 @@ class CommandShaper:
             steps.finish()
 
     def _outputs(self) -> ShaperOutput:
-        motion = self._motion
-        to_come = self._foretelling.foretell(motion, self._stops, self._steps, self._wanted_row)
+        motion, row_at_rest = self._motion, self._wanted_row
+        if self._travel is not None:
+            self._travel.look_ahead(motion, self._wanted_row)
+            row_at_rest = self._travel.next_row
+        to_come = self._foretelling.foretell(motion, self._stops, self._steps, row_at_rest)
         row = 0 if self._stops.is_latched else motion.row
         status, diagnosis = self._full_status(), self._diagnosis
         length = self._zero if self._rope is None else self._rope.length

@@ -127,6 +127,10 @@ class Distances:
         """Whether a sum of references to come, with its sign, exceeds the way by more than `slack`."""
         return bool(total > self._forward + slack or self._zero - total > self._reverse + slack)
 
+    def will_exceed(self, total: Any, reference: Any) -> bool:
+        """Whether a sum of references to come exceeds the way that the reference of this tick leaves."""
+        return bool(total > self._forward - reference or self._zero - total > self._reverse + reference)
+
     def left(self, motion: Motion, *, forward: bool) -> Any:
         """Sum of the commands that may still come towards an end; from rest none where it is not worth it."""
         left = self._forward - motion.pending if forward else self._reverse + motion.pending

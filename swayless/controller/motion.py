@@ -56,11 +56,24 @@ class Motion:
         limit = self._limits.inching_command
         return bool(abs(command) <= limit and abs(wanted) <= limit and not command == wanted == 0)
 
-    def choose_row(self, wanted_row: int, command: Any) -> None:
-        """Change to the wanted row, or to row 0 for a small command, where the block has settled."""
-        if self.is_settled:
-            self.is_inching = wanted_row > 0 and self.inches(self.command, command)
-            self.row = 0 if self.is_inching else wanted_row
+    def choose_row(self, wanted_row: int, command: Any, next_row: int | None = None) -> None:
+        """Change to the wanted row, or to row 0 for a small command, where the block has settled.
+
+        Parameters
+        ----------
+        wanted_row : int
+            Row that is wanted.
+        command : float or int
+            Command of the tick.
+        next_row : int or None
+            The one row that may take over while the crane moves; None: every row.
+        """
+        if not self.is_settled:
+            return
+        if wanted_row > 0 and self.inches(self.command, command):
+            self.is_inching, self.row = True, 0
+        elif next_row is None or self.command == 0 or wanted_row == next_row:
+            self.is_inching, self.row = False, wanted_row
 
     def accept(self, command: Any) -> bool:
         """Make a command the ramp's target, at once or, where amplitudes are negative, at rest only.

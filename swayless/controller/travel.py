@@ -24,6 +24,13 @@ class Travel:
     ----------
     settings : ShaperSettings
         With distance inputs.
+
+    Attributes
+    ----------
+    next_row : int
+        Row that may take over in the next tick while the crane moves.
+    status : int
+        Status bits of this tick.
     """
 
     def __init__(self, settings: ShaperSettings) -> None:
@@ -32,6 +39,7 @@ class Travel:
         self._approach = Approach(settings.limits, settings.number)
         self._plan = PlannedMove(settings, self._approach)
         self._distances = Distances(settings)
+        self.next_row = 0
         self.status = 0
 
     def read(self, inputs: ShaperInput, motion: Motion) -> None:
@@ -41,6 +49,18 @@ class Travel:
         total = motion.pending + (glide if motion.command > 0 else self._zero - glide)
         if self._distances.exceeds(total, self._limits.max_command):
             self.status |= _WAY_TOO_SHORT
+
+    def look_ahead(self, motion: Motion, wanted_row: int) -> None:
+        """Find which row may shape from the next tick on: the wanted one if its stop keeps within the ways.
+
+        A row takes over at rest, but rest may be a constant speed, and the stop of another row a longer one.
+        """
+        self.next_row = motion.row
+        if motion.is_settled:
+            glide = self._approach.glide(abs(motion.command))
+            total = motion.filter.pending(wanted_row) + (glide if motion.command > 0 else self._zero - glide)
+            if not self._distances.will_exceed(total, motion.reference):
+                self.next_row = wanted_row
 
     def cut(self, motion: Motion, way: Any, *, forward: bool) -> Any:
         """Cut what is left of steps down to the way to the end, but not below what stopping takes."""

@@ -94,6 +94,32 @@ def test_a_row_leaves_what_its_taps_leave_of_both_ramps(crane, simulated):
     assert found == pytest.approx(ratio, abs=2.5e-4)
 
 
+@pytest.mark.parametrize("damping_ratio", [0.0, 0.05])
+def test_left_is_an_amplitude_and_peak_what_was_seen_of_it(machine, simulated, damping_ratio):
+    machine.write_text(machine.read_text().replace("damping_ratio = 0.0", f"damping_ratio = {damping_ratio}"))
+    half_period_s = math.pi / RAD_S  # the stop adds to the swing of the start, so what is left is the largest
+    move = ("--move", f"{half_period_s} s at 0.2 m/s", "--rope-length", "6 m", "--row", "1")
+    jump = cases(simulated(machine, *move))["jump, no ramp"]
+    seen = jump["peak_sway_m"] / jump["residual_m"]
+    # 1e-4: in half a tick of 10 ms the load is off its turn by (w 5 ms)^2 / 2, 2e-5 of its swing.
+    assert math.exp(-math.pi * damping_ratio) - 1e-4 < seen < 1.0 + 1e-4
+    assert (seen < 0.99) == (damping_ratio > 0.0)
+
+
+def test_an_arm_rests_within_a_fiftieth_of_its_unshaped_step_unless_said(tmp_path, run):
+    path = tmp_path / "arm.toml"
+    path.write_text(example_text("flexible-arm"))
+    move = ("simulate", path, "--move", "1 m", "--frequency", "4.5")
+    found, wide = (json.loads(run(*move, *more, "--json").out) for more in ((), ("--within", "50 mm")))
+    # 1.2 m/s and at least 4 Hz, of the machine file.
+    assert found["within_m"] == pytest.approx(0.02 * 1.2 / (2.0 * math.pi * 4.0), rel=1e-12)
+    assert wide["within_m"] == 0.05
+    rests_s, within_50_mm_s = (cases(each)["2 robust"]["rests_s"] for each in (found, wide))
+    assert within_50_mm_s < rests_s
+    assert cases(found)["jump, no ramp"]["rests_s"] is None
+    assert "within 0.9549 mm of its end" in run(*move).out
+
+
 def ramp_of(acceleration_m_s2):
     """Swing that a ramp to 0.2 m/s leaves, of a step's, about its beginning; ramps are tick by tick."""
     ticks = round(0.2 / acceleration_m_s2 / 0.01)

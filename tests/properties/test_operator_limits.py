@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from swayless.controller import CommandShaper, Status
 from tests.properties.strategies import NUMBERS, examples
-from tests.unit.controller.blocks import block, command_of, fork, run
+from tests.unit.controller.blocks import ZVD, block, command_of, fork, run
 from tests.unit.controller.operator_blocks import (
     KINDS,
     STEP_SIZES_M,
@@ -297,3 +297,52 @@ def test_steps_whose_way_jumps_too_short_end_where_the_ramp_does_and_do_not_retu
     assert all(out.reference >= 0 for out in outs)
     assert not outs[-1].status & Status.STEPPING
     assert outs[-1].stop_distance == 0
+
+
+LONG = ((0, 0.25), (8, 0.5), (16, 0.25))
+"""The last tick in which full speed fits comes 8 ticks before that of row 0, and 4 before that of row 1."""
+
+
+def two_rows(number, **options):
+    """A block with a short row and one whose stop takes longer."""
+    return operated(block(ZVD, LONG, number=number, acceleration_m_s2=0.4), **options)
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("before", ["row 0", "row 1", "disabled"])
+def test_a_row_whose_stop_is_longer_takes_over_only_where_it_keeps_within_the_way(number, before):
+    settings = two_rows(number, **WAYS)
+    full = hands_off(settings, command=command_of(settings, 1.0), selector=2)
+    first = {
+        "row 0": full._replace(selector=0),
+        "row 1": full._replace(selector=1),
+        "disabled": full._replace(enable=False),
+    }[before]
+    waited = passed = 0
+    for turn in range(130, 156, 2):
+        track = Track(settings, 4.0, 4.0)
+        outs = track.run(first, turn) + track.run(full, 120)
+        assert abs(float(outs[-1].reference)) <= 1e-12  # the last bits of the way that this track measures
+        assert track.place_m <= 4.0 - MARGIN_M + ROUNDING_M[number]
+        assert not any(out.status & Status.WAY_TOO_SHORT for out in outs)
+        moving = [out for out in outs[turn:] if out.settled and out.reference != 0]
+        waited += any(out.status & Status.ROW_WAITS for out in moving[1:])
+        passed += any(out.row == 2 for out in moving)
+    assert waited
+    assert passed
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_the_stop_distance_holds_while_a_row_waits_for_room(number):
+    settings = two_rows(number, **WAYS)
+    full = hands_off(settings, command=command_of(settings, 1.0), selector=2)
+    for turn in range(132, 156, 3):
+        track = Track(settings, 4.0, 4.0)
+        track.run(full._replace(selector=0), turn)
+        for _ in range(4):
+            out = track.tick(full)
+            twin = Track(settings, track.forward_m, track.reverse_m)
+            twin.shaper, twin.place_m = fork(track.shaper), track.place_m
+            rest = twin.run(full._replace(command=settings.number.scalar(0)), 120)
+            foretold_m = float(out.stop_distance) / (1000 if settings.number.is_integer else 1)
+            assert foretold_m == pytest.approx(travelled_m(settings, rest), abs=ROUNDING_M[number])
