@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from swayless.cli.options import JsonOption
+from swayless.cli.options import AxisOption, JsonOption
 
 FileArgument = Annotated[
     Path | None,
@@ -86,6 +86,7 @@ def optimal(
     tolerance: ToleranceOption = None,
     rope_length: RopeOption = None,
     frequency: FrequencyOption = None,
+    axis: AxisOption = None,
     output: OutputOption = None,
     json: JsonOption = False,
 ) -> None:
@@ -124,7 +125,7 @@ def optimal(
         "rope_length": rope_length,
         "frequency": frequency,
     }
-    request = load_profile(file, option_table(given, []).raw)
+    request = load_profile(file, option_table(given, []).raw, axis=axis)
     found = found_for(request)
     if output is not None:
         write_text_atomically(output, trajectory_text(request, found))

@@ -17,16 +17,14 @@ from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError, FileError
 from swayless.machine.checks import integer, machine_name, number, quantity
 from swayless.machine.controller_section import TICK
-from swayless.machine.machine_file import MAX_BYTES, load_machine
-from swayless.machine.plant_section import FREQUENCY, LENGTH
+from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.problems import Place, Report, Table, shown
-from swayless.machine.profile_plant import COEFFICIENT, coefficients, load_below_trolley, read_plant_model
+from swayless.machine.profile_machine import LOAD_KEYS, read_machine
+from swayless.machine.profile_plant import COEFFICIENT, coefficients, read_plant_model
 from swayless.machine.profile_trajectory import read_trajectory
 from swayless.machine.source import read_source
-from swayless.plant import Mode, pendulum_frequency_hz
 
 PLANT_KEYS = ("numerator", "denominator", "a", "b", "c", "d")
-_ROPE_KEYS = ("rope_length", "frequency")
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +64,9 @@ class _Overlaid(Table):
         return Place(self.report, option) if key in self.options or not self.prefix else super().place(key)
 
 
-def load_profile(path: Path | None, options: Mapping[str, object]) -> ProfileRequest:
+def load_profile(
+    path: Path | None, options: Mapping[str, object], *, axis: str | None = None
+) -> ProfileRequest:
     """Load a profile file, or a machine file, or take everything from options.
 
     Parameters
@@ -76,6 +76,8 @@ def load_profile(path: Path | None, options: Mapping[str, object]) -> ProfileReq
     options : mapping
         Values by the keys of ``[plant]`` and ``[move]``, which replace those of the file; ``rope_length`` or
         ``frequency`` say which load of a machine with a range is meant.
+    axis : str or None
+        Which axis, for a machine file that has axes.
 
     Raises
     ------
@@ -93,7 +95,7 @@ def load_profile(path: Path | None, options: Mapping[str, object]) -> ProfileReq
     report = Report("" if path is None else str(path))
     document = {} if path is None else _parse(path)
     if path is not None and ("crane" in document or "arm" in document or "axis" in document):
-        name, plant, move = _of_machine(path, options, report)
+        name, plant, move = _of_machine(path, options, report, axis)
     else:
         name, plant, move = _of_profile(document, options, report)
     request = _read_move(name, plant, move, path)
@@ -129,26 +131,13 @@ def _of_profile(
 
 
 def _of_machine(
-    path: Path, options: Mapping[str, object], report: Report
+    path: Path, options: Mapping[str, object], report: Report, axis: str | None
 ) -> tuple[str, LinearPlant | None, Table]:
-    """Take the load of a crane as the plant, and speed, acceleration and tick as the limits."""
-    machine = load_machine(path)
-    given = {key: value for key, value in options.items() if key not in _ROPE_KEYS}
-    table = _Overlaid(dict(options), report, "", options=frozenset(options))
-    if machine.plant.double_pendulum is not None or machine.drive.speed_loop is not None:
-        what = "a load below a hook, or a drive that feels the load: write a [plant] of its own"
-        report.problems.append(f"{path}: {what}")
-    table.need_one_of(*_ROPE_KEYS)
-    rope_m, frequency_hz = table.take("rope_length", LENGTH, None), table.take("frequency", FREQUENCY, None)
-    if rope_m is not None:
-        frequency_hz = pendulum_frequency_hz(rope_m)
-    limits: dict[str, object] = {"tick": machine.controller.tick_s, "limit": machine.drive.max_speed_m_s}
-    if machine.drive.acceleration_m_s2 is not None:
-        limits["rate_limit"] = machine.drive.acceleration_m_s2
-    move = _Overlaid({**limits, **given}, report, "", options=frozenset(given))
-    if frequency_hz is None:
-        return machine.name, None, move
-    return machine.name, load_below_trolley(Mode(frequency_hz, machine.plant.damping_ratio)), move
+    """Take plant and limits from a machine file, and the move from options."""
+    load = {key: value for key, value in options.items() if key in LOAD_KEYS}
+    given = {key: value for key, value in options.items() if key not in LOAD_KEYS}
+    name, plant, limits = read_machine(path, _Overlaid(load, report, ""), axis=axis)
+    return name, plant, _Overlaid({**limits, **given}, report, "")
 
 
 def _read_move(

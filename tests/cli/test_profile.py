@@ -112,6 +112,27 @@ def test_a_crane_moves_within_its_speed_and_acceleration(run, tmp_path):
     assert 0.05 * sum(document["command"]) == pytest.approx(1.0, abs=1e-9)
 
 
+def test_an_axis_of_a_crane_is_chosen_by_its_name(run, tmp_path):
+    (tmp_path / "axes.toml").write_text(example_text("two-axis-crane"))
+    options = ("--axis", "trolley", "--rope-length", "6", "--target", "0.2", "--tick", "0.1", "--json")
+    assert found(run("profile", "optimal", "axes.toml", *options))["name"] == "two_axis_crane_trolley"
+
+
+CONTACTOR = """
+name = "pendant"
+[crane]
+rope_length = [2, 5]
+max_speed = 0.5
+[drive]
+contactor = true
+[controller]
+tick = "20 ms"
+[[row]]
+name = "one"
+family = "um-zv"
+rope_length = 3
+"""
+
 CASES = {
     "--target 1 --tick 1": [
         "numerator and denominator, or a, b and c: exactly one is needed",
@@ -130,6 +151,13 @@ CASES = {
     "hook.toml --target 1 --rope-length 5": [
         "hook.toml: a load below a hook, or a drive that feels the load"
     ],
+    "crane.toml --target 1 --rope-length 11": ["--rope-length = 11.0: must be 2 to 10 m, the machine's rope"],
+    "crane.toml --target 1 --frequency 1": ["--frequency = 1.0: must be 0.157"],
+    "arm.toml --target 1 --rope-length 5": ["--rope-length = 5.0: this machine has no rope lengths"],
+    "axes.toml --target 1 --rope-length 5": ["axes.toml: "],
+    "contactor.toml --target 1 --rope-length 3": [
+        "contactor drive cannot follow a command with values between"
+    ],
     "broken.toml": ["broken.toml: not valid TOML"],
     "odd.toml": ["odd.toml: [plant] numerato: unknown key", "odd.toml: [plant] numerator: missing"],
     "none.toml": ["none.toml: cannot be read"],
@@ -141,6 +169,9 @@ def test_what_is_wrong_is_said_with_its_place(run, tmp_path, line):
     (tmp_path / "move.toml").write_text(EXAMPLE.read_text())
     (tmp_path / "crane.toml").write_text(example_text("workshop-crane"))
     (tmp_path / "hook.toml").write_text(example_text("double-pendulum"))
+    (tmp_path / "arm.toml").write_text(example_text("flexible-arm"))
+    (tmp_path / "axes.toml").write_text(example_text("two-axis-crane"))
+    (tmp_path / "contactor.toml").write_text(CONTACTOR)
     (tmp_path / "broken.toml").write_text("= 1")
     (tmp_path / "odd.toml").write_text(EXAMPLE.read_text().replace("numerator", "numerato"))
     done = run("profile", "optimal", *shlex.split(line))

@@ -23,6 +23,7 @@ from swayless.design.optimal import (
     track,
     transform_derivatives,
 )
+from swayless.design.optimal.program import Program, Wanted, least_utilisation
 
 MASS = LinearPlant([[0.0, 1.0], [0.0, 0.0]], [0.0, 1.0], [1.0, 0.0])
 OSCILLATOR = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0])
@@ -201,6 +202,24 @@ def test_more_time_takes_less_energy_and_every_command_rests_within_its_limits()
     for found in commands:
         assert found.utilisation_ratio <= 1.0
         assert abs(transform_derivatives(found.command, 10j, 1)).max() < 1e-9 * 10.0
+
+
+@settings(derandomize=True, deadline=None, max_examples=30)
+@given(st.integers(0, 2**32 - 1), st.booleans(), st.booleans())
+def test_no_prices_prove_more_than_the_optimum_whatever_limits_there_are(seed, with_rate, with_trajectory):
+    rng = np.random.default_rng(seed)
+    rate = 400.0 if with_rate else None
+    task = MoveTask(OSCILLATOR, 0.02, (-3.0, 5.0), 1.0, start=-0.3, rate_limit_per_s=rate)
+    wanted = Wanted(np.linspace(0.05, 1.3, 25), 0.2) if with_trajectory else None
+    program = Program(task, 25, wanted)
+    least = least_utilisation(program)
+    ends, limits = len(program.orthonormal[0]), program.limited[2].size
+    for _ in range(5):
+        proved = program.proved_utilisation(
+            rng.normal(size=ends), rng.normal(size=limits) * rng.integers(0, 2)
+        )
+        assert proved <= least.utilisation_ratio * (1.0 + 1e-9)
+    assert least.proved_ratio == pytest.approx(least.utilisation_ratio, rel=1e-7)
 
 
 def smooth(ticks):
