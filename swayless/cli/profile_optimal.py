@@ -133,5 +133,5 @@ def optimal(
         print_json(document(request, found))
         return
     print_found(request, found)
-    if output is not None:
-        typer.echo(f"{output}: written")
+    note = "note: give -o to write the command and the output that it should make, one line a tick"
+    typer.echo(note if output is None else f"{output}: written")

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import typer
-
 from swayless.cli.console import counted, per_cent, print_line, print_table, rounded_down
 from swayless.design.optimal import OptimalCommand, output_at_ticks
 from swayless.design.optimal.sensitivity import mode_of, swing_left
@@ -100,7 +98,6 @@ def print_found(request: ProfileRequest, found: OptimalCommand) -> None:
     else:
         least = rounded_down(100.0 * found.proved_utilisation_ratio)
         print_line(f"proved: no command of this length takes less than {least} % of the limits")
-    typer.echo("note: a command computed ahead; give -o to write it with its trajectory, for a feedback")
 
 
 def _left_rows(request: ProfileRequest, found: OptimalCommand) -> list[tuple[str, ...]]:

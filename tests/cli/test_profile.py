@@ -15,6 +15,7 @@ from swayless.cli.app import app
 from swayless.design.optimal import LinearPlant, output_at_ticks
 from swayless.design.optimal.command import Command
 from swayless.machine import example_text
+from swayless.machine.profile_file import load_profile
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "profiles" / "time-optimal-oscillator.toml"
@@ -194,6 +195,17 @@ def test_the_page_shows_what_the_program_prints(run, tmp_path):
             assert [text for text in done.out.splitlines() if "misses rest" not in text] == [
                 text for text in output.splitlines() if "misses rest" not in text
             ]
+
+
+def test_the_file_on_the_page_is_read_with_all_of_its_keys(tmp_path):
+    (text,) = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    (tmp_path / "move.toml").write_text(text)
+    request = load_profile(tmp_path / "move.toml", {})
+    assert (request.relax_ratio, request.task.rate_limit_per_s, request.task.robustness.order) == (
+        1.5,
+        2000.0,
+        1,
+    )
 
 
 def test_every_option_is_in_the_table_of_the_page_and_no_other():
