@@ -15,6 +15,9 @@ from swayless.machine.profile_file import ProfileRequest
 OFF = (0.9, 1.0, 1.1)
 """Actual frequencies, of the nominal ones, at which what is left is said."""
 
+CURVE = tuple(percent / 100.0 for percent in range(70, 131))
+"""The same in JSON: a sensitivity curve."""
+
 
 def document(request: ProfileRequest, found: OptimalCommand) -> dict[str, Any]:
     """Give everything that is known of a command, for machines."""
@@ -45,11 +48,11 @@ def document(request: ProfileRequest, found: OptimalCommand) -> dict[str, Any]:
             {
                 "frequency_hz": mode_of(complex(pole)).frequency_hz,
                 "damping_ratio": mode_of(complex(pole)).damping_ratio,
-                "at_ratio": list(OFF),
+                "at_ratio": list(CURVE),
                 "amplitude": left.tolist(),
             }
             for pole, left in zip(
-                task.plant.ringing_poles_rad_s, swing_left(task.plant, command, OFF), strict=True
+                task.plant.ringing_poles_rad_s, swing_left(task.plant, command, CURVE), strict=True
             )
         ],
     }

@@ -55,6 +55,13 @@ def test_the_example_is_the_robust_move_of_the_paper(run):
     output = output_at_ticks(plant, played(document), ticks=200)
     assert output[58:] == pytest.approx(1.0, abs=1e-9)
     assert output[:59] == pytest.approx(document["reference"], abs=1e-12)
+    (left,) = document["left"]
+    curve = dict(zip(left["at_ratio"], left["amplitude"], strict=True))
+    assert (curve[1.0] < 1e-9, len(curve)) == (True, 61)
+    # What swings where the plant is 10 % off: the largest of 240 ticks is within 1e-3 of the amplitude.
+    faster = LinearPlant.from_transfer_function([1.0], [0.01 / 1.21, 0.0, 1.0])
+    off = output_at_ticks(faster, played(document), ticks=300)
+    assert np.abs(off[58:] - 1.0).max() == pytest.approx(curve[1.1], rel=1e-3)
 
 
 def test_options_do_what_the_file_does_and_replace_it(run):
