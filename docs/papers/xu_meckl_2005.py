@@ -95,8 +95,8 @@ def tracked(robustness: Robustness) -> OptimalCommand:
 
 
 def zvd_step() -> Command:
-    """Figure 7: a step of 1 through a ZVD shaper of the mode; its tick is half a period."""
-    return Command(PERIOD_S / 2.0, np.array([0.25, 0.75]), 1.0)
+    """Figure 7: a step of 1 through a ZVD shaper of the mode; 60 ticks are half a period."""
+    return Command(PERIOD_S / 120.0, np.repeat([0.25, 0.75], 60), 1.0)
 
 
 def left(command: Command, ratio: float) -> float:
@@ -223,9 +223,9 @@ def draw_input(axes: Axes, command: Command, index: int, label: str) -> None:
     axes.step(times_s, values, where="post", label=label, **line_style(index))
 
 
-def draw_output(axes: Axes, output: FloatArray, index: int, label: str) -> None:
+def draw_output(axes: Axes, output: FloatArray, index: int, label: str, tick_s: float = TICK_S) -> None:
     """Draw outputs at ticks."""
-    axes.plot(TICK_S * np.arange(output.size), output, label=label, **line_style(index))
+    axes.plot(tick_s * np.arange(output.size), output, label=label, **line_style(index))
 
 
 def moves_figure(title: str, commands: dict[str, Command]) -> Figure:
@@ -234,8 +234,10 @@ def moves_figure(title: str, commands: dict[str, Command]) -> Figure:
         figure, (inputs, nominal, off) = new_figure(title, [2.0, 2.0, 2.0], sharex=True)
         for index, (label, command) in enumerate(commands.items()):
             draw_input(inputs, command, index, label)
-            draw_output(nominal, output_at_ticks(oscillator(), command, ticks=SHOWN_TICKS), index, label)
-            draw_output(off, output_at_ticks(oscillator(1.1), command, ticks=SHOWN_TICKS), index, label)
+            for axes, ratio in ((nominal, 1.0), (off, 1.1)):
+                ticks = round(TICK_S * SHOWN_TICKS / command.tick_s)
+                output = output_at_ticks(oscillator(ratio), command, ticks=ticks)
+                draw_output(axes, output, index, label, command.tick_s)
         for axes, label in ((inputs, "input"), (nominal, "output at w0"), (off, "output at 1.1 w0")):
             axes.set_ylabel(label)
         legend_above(inputs)
@@ -253,7 +255,7 @@ def sensitivity_figure() -> Figure:
             curve = residual_amplitude(command, ratios * W0_RAD_S / (2.0 * math.pi))
             axes.plot(ratios, 100.0 * curve, label=label, **line_style(index))
         axes.set(xlabel="actual frequency / w0", ylabel="left [%]", ylim=(0.0, 30.0))
-        axes.legend(loc="upper center", ncols=3)
+        legend_above(axes)
         return settle(figure)
 
 
@@ -274,12 +276,17 @@ def loop_figure() -> Figure:
 def figures() -> dict[str, tuple[Figure, list[OptimalCommand]]]:
     """All figures of the page, each with the commands that it shows."""
     two = {NAMES[each]: fastest(each).command for each in (NOMINAL, FIRST)}
+    zvd = {NAMES[FIRST]: fastest(FIRST).command, "ZVD-shaped step": zvd_step()}
     several = {f"k = {relaxed(ratio).ticks}": relaxed(ratio).command for ratio in RELAXED}
     along = {NAMES[each]: tracked(each).command for each in (FIRST, EXTRA_INSENSITIVE)}
     return {
         "fig-4-and-5": (
             moves_figure("Figs 4 and 5: the fastest moves, |u| <= 5", two),
             [fastest(NOMINAL), fastest(FIRST)],
+        ),
+        "fig-7": (
+            moves_figure("Figs 5 and 7: 1st-order robust, and a ZVD-shaped step", zvd),
+            [fastest(FIRST)],
         ),
         "fig-8": (
             moves_figure("Fig 8: least energy, 1st-order robust", several),
