@@ -1,11 +1,11 @@
 """Print every benchmark, ratios to peers measured in the same run: `python -m benchmarks`."""
 
-from benchmarks import clocks, commands, design, identification, robust, running
+from benchmarks import clocks, commands, design, identification, optimal, robust, running
 
 
 def main() -> None:
     """Run every benchmark."""
-    for part in (design, robust, running, clocks, identification, commands):
+    for part in (design, robust, optimal, running, clocks, identification, commands):
         for text in part.report():
             print(text)
 
