@@ -53,6 +53,7 @@ def of_record(found: Found) -> Iterator[str]:
     if found.swing is not None and found.read is not None:
         yield from _of_swing(found.swing, found.read)
     elif found.decrement is not None:
+        yield f"peaks: {found.decrement.peaks} read over {found.decrement.swings:g} swings"
         yield f"noise: a peak was read to {found.decrement.reading_std:.2g}, one standard deviation"
     else:
         yield "damping: a stopwatch does not show it; record the swing, or read off peaks (--peaks)"

@@ -75,6 +75,7 @@ def read_swings(table: RecordTable, reading: Reading) -> list[ReadRecord]:
     FileError
         If a column is missing or ambiguous, or a time or value is wrong: with the line.
     """
+    _refuse_counts(table, reading)
     rope, time_s, value = _columns(table, reading)
     quantity, size = _quantity(table, reading, table.heads[value])
     ropes = np.zeros(time_s.size) if rope is None else _ropes(table, rope)
@@ -113,14 +114,36 @@ def read_peaks(table: RecordTable, reading: Reading) -> tuple[FloatArray, FloatA
     return time_s[keep], height[keep], reading.rate_hz is not None or not _are_counted(table, reading)
 
 
+def _refuse_counts(table: RecordTable, reading: Reading) -> None:
+    """Refuse a file whose samples are only counted: counts are no seconds."""
+    if reading.rate_hz is not None or reading.time is not None:
+        return
+    column = _time_column(table, reading)
+    head, steps = table.heads[column], np.diff(table.values[:, column])
+    if not head.is_time and (head.is_count or (steps.size and (steps == 1.0).all())):
+        raise FileError(
+            [
+                f"{table.path}: {shown(head.text)} counts samples or swings, which are no times: give --rate,"
+                f" or --time {column + 1} if it does hold seconds; heights of peaks need --peaks"
+            ]
+        )
+
+
 def _are_counted(table: RecordTable, reading: Reading) -> bool:
-    """Whether peaks stand over counts of swings: the head says so, or else whole or half numbers do."""
+    """Whether peaks stand over counts of swings, as the head says; whole or half numbers may be either."""
     column = _time_column(table, reading)
     head = table.heads[column]
-    if head.is_swing or head.is_time or head.unit in TIME_UNITS:
-        return head.is_swing
+    if head.is_time or head.is_swing:
+        return not head.is_time
     halves = 2.0 * np.diff(table.values[:, column])
-    return bool((halves == np.round(halves)).all())
+    if reading.time is None and (halves == np.round(halves)).all():
+        raise FileError(
+            [
+                f"{table.path}: {shown(head.text)} may be times or counts of swings: give it a head,"
+                ' "time [s]" or "swing"'
+            ]
+        )
+    return False
 
 
 def _columns(table: RecordTable, reading: Reading) -> tuple[int | None, FloatArray, int]:
@@ -139,7 +162,7 @@ def _columns(table: RecordTable, reading: Reading) -> tuple[int | None, FloatArr
         return rope, time_s, _column(table, reading.column, "--column")
     left = [index for index in range(len(table.heads)) if index not in taken]
     if len(left) > 1:
-        left = [index for index in left if not table.heads[index].is_time]
+        left = [index for index in left if _may_be_measured(table.heads[index])]
     if len(left) != 1:
         names = ", ".join(shown(table.heads[index].text) for index in left)
         what = f"which one is the swing? give --column: {names}" if left else "there is no column of values"
@@ -154,8 +177,14 @@ def _time_column(table: RecordTable, reading: Reading) -> int:
         raise FileError(
             [f"{table.path}: line {table.line[0]}: one column: give --rate, or a file with a column of times"]
         )
-    named = [index for index, head in enumerate(table.heads) if head.is_time or head.is_swing]
-    return named[0] if named else 0
+    times = [index for index, head in enumerate(table.heads) if head.is_time]
+    counts = [index for index, head in enumerate(table.heads) if head.is_count]
+    return [*times, *counts, 0][0]
+
+
+def _may_be_measured(head: Head) -> bool:
+    """Whether a column may be the swing: it has a name, and not that of a time or a count."""
+    return bool(head.text) and not (head.is_time or head.is_count)
 
 
 def _column(table: RecordTable, asked: str, option: str) -> int:
@@ -180,7 +209,7 @@ def _quantity(table: RecordTable, reading: Reading, head: Head) -> tuple[Quantit
     if reading.unit is None:
         return VALUE_UNITS.get(head.unit or "", (Quantity.value, 1.0))
     unit = unit_named(reading.unit)
-    if unit not in VALUE_UNITS:
+    if unit is None or unit not in VALUE_UNITS:
         known = ", ".join(VALUE_UNITS)
         raise FileError([f"{table.path}: --unit = {shown(reading.unit)}: unknown unit; known: {known}"])
     return VALUE_UNITS[unit]

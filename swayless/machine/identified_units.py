@@ -48,6 +48,11 @@ _TIME_NAMES = re.compile(r"t|time.*|zeit.*|temps.*|tiempo.*|tempo.*|timestamp.*"
 _SWING_NAMES = re.compile(
     r"n|k|i|#|no\.?|index|(swing|cycle|peak|period)s?([ _]*(number|count|no\.?|#))?", re.IGNORECASE
 )
+_COUNT_NAMES = re.compile(
+    r"(sample|row|line|point|frame|scan|record|step|count|counter|number|nr\.?|idx|id)s?"
+    r"([ _-]*(number|count|no\.?|nr\.?|id|index|idx|#))?",
+    re.IGNORECASE,
+)
 _ROPE_NAMES = re.compile(r"(rope|cable|hoist|pendulum)([ _-]*(length|height))?|rope[ _-]*m", re.IGNORECASE)
 
 
@@ -70,13 +75,18 @@ class Head(NamedTuple):
 
     @property
     def is_time(self) -> bool:
-        """Whether the column looks like times."""
-        return bool(_TIME_NAMES.fullmatch(self.name))
+        """Whether the column looks like times: by its name or its unit."""
+        return bool(_TIME_NAMES.fullmatch(self.name)) or self.unit in TIME_UNITS
 
     @property
     def is_swing(self) -> bool:
         """Whether the column looks like a count of swings."""
         return bool(_SWING_NAMES.fullmatch(self.name))
+
+    @property
+    def is_count(self) -> bool:
+        """Whether the column looks like a count of samples or of swings, rather than a measurement."""
+        return self.is_swing or bool(_COUNT_NAMES.fullmatch(self.name))
 
     @property
     def is_rope(self) -> bool:

@@ -26,6 +26,15 @@ FEWEST_PEAKS = 4
 _MOST_STEPS = 100
 _STILL = 1e-13
 
+_EXACT, _MISFIT = 0.1, 0.25
+"""How far a gap may be from whole periods, in periods: where others fit too, and where none does."""
+
+_ROUNDINGS = 4.0
+"""Periods of so many steps of the clock, or fewer, are not told from its rounding."""
+
+_MOST_PARTS = 4
+"""Periods that the shortest gap may hold."""
+
 
 class Decrement(NamedTuple):
     """How peaks fall.
@@ -38,12 +47,18 @@ class Decrement(NamedTuple):
         Height at swing 0, in the unit of the heights.
     reading_std : float
         Standard deviation of one height.
+    peaks : int
+        How many were read.
+    swings : float
+        From the first to the last.
     """
 
     per_swing: float
     per_swing_std: float
     first: float
     reading_std: float
+    peaks: int
+    swings: float
 
     @property
     def damping_ratio(self) -> float:
@@ -93,7 +108,7 @@ def decrement(swing: FloatArray, height: FloatArray) -> Decrement:
     change = -swing * first * shape
     change -= shape * (shape @ change) / (shape @ shape)
     std = reading_std * student_ratio(freedom) / float(np.sqrt(change @ change))
-    return Decrement(max(0.0, fall), std, first, reading_std)
+    return Decrement(max(0.0, fall), std, first, reading_std, swing.size, float(np.ptp(swing)))
 
 
 def _projected(swing: FloatArray, height: FloatArray, fall: float) -> tuple[float, FloatArray]:
@@ -132,7 +147,7 @@ def identify_peaks(
     Raises
     ------
     PlantError
-        As for `decrement`, or if the times do not rise.
+        As for `decrement`, or if the times do not rise, or are no whole swings apart.
 
     Examples
     --------
@@ -143,8 +158,7 @@ def identify_peaks(
     """
     if time_s.size < FEWEST_PEAKS or not (np.diff(time_s) > 0.0).all():
         raise PlantError(f"times of peaks must rise, and be at least {FEWEST_PEAKS}")
-    count = np.round((time_s - time_s[0]) / np.median(np.diff(time_s)))
-    swing = count / peaks_per_swing
+    swing = np.concatenate([[0.0], np.cumsum(_periods(np.diff(time_s), _grid_s(time_s)))]) / peaks_per_swing
     found = decrement(swing, height)
     centred = swing - swing.mean()
     period_s = float(centred @ time_s / (centred @ centred))
@@ -152,6 +166,56 @@ def identify_peaks(
     freedom = swing.size - 2
     spread = student_ratio(freedom) * float(np.sqrt(residual @ residual / freedom / (centred @ centred)))
     return mode_of_period(period_s, spread, found), found
+
+
+def _periods(gap_s: FloatArray, grid_s: float) -> FloatArray:
+    """Count the periods in each gap: of the longest period that all gaps hold whole times."""
+    counted = [_counted(gap_s, float(gap_s.min()) / parts) for parts in range(1, _MOST_PARTS + 1)]
+    count, misfit = counted[0]
+    worst = int(np.argmax(misfit))
+    if misfit[worst] < _EXACT:
+        return count
+    # Rounded times fit any period that is hardly longer than their last digit.
+    exact = [
+        each
+        for each, off in counted[1:]
+        if off.max() < _EXACT and gap_s.sum() > _ROUNDINGS * grid_s * each.sum()
+    ]
+    if exact and misfit[worst] >= _MISFIT:
+        return exact[0]
+    if not exact and misfit[worst] < _MISFIT:
+        return count
+    raise PlantError(
+        f"peaks {worst + 1} and {worst + 2} are {gap_s[worst]:.5g} s apart, which is"
+        f" {gap_s[worst] * count.sum() / gap_s.sum():.3g} times the usual gap: must be whole swings; read the"
+        " times more exactly, or without missing a peak"
+    )
+
+
+def _grid_s(time_s: FloatArray) -> float:
+    """Give the coarsest of 10, 5, 2, 1, 0.5, ... s that all times are multiples of; 0 if none is."""
+    for decade in 10.0 ** np.arange(1, -6, -1):
+        for step in (decade, decade / 2.0, decade / 5.0):
+            if np.abs(time_s / step - np.round(time_s / step)).max() < _EXACT:
+                return float(step)
+    return 0.0
+
+
+def _counted(gap_s: FloatArray, period_s: float) -> tuple[FloatArray, FloatArray]:
+    """Count periods in gaps, and say how far each is from whole ones, in periods.
+
+    Gaps of one period refine it first, then those of two, of four, ...: what the period is off never adds
+    up to half of one.
+    """
+    reach = 1.0
+    while True:
+        count = np.maximum(1.0, np.round(gap_s / period_s))
+        short = count <= reach
+        period_s = float(gap_s[short].sum() / count[short].sum()) if short.any() else period_s
+        if short.all():
+            count = np.maximum(1.0, np.round(gap_s / period_s))
+            return count, np.abs(gap_s / period_s - count)
+        reach *= 2.0
 
 
 def mode_of_period(period_s: float, period_s_std: float, found: Decrement | None) -> IdentifiedMode:

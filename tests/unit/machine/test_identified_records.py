@@ -99,9 +99,7 @@ def test_columns_are_found_by_head_or_number(read):
     )
     for column in ("right_rad", "RIGHT", "4"):
         np.testing.assert_array_equal(read(text, time="2", column=column)[0].record.value, -VALUES)
-    assert refusal(read, text, time="2") == [
-        'which one is the swing? give --column: "n", "left_rad", "right_rad"'
-    ]
+    assert refusal(read, text, time="2") == ['which one is the swing? give --column: "left_rad", "right_rad"']
     assert refusal(read, text, column="5") == [
         '--column = "5": no such column; known: "n", "time_s", "left_rad", "right_rad", or 1 to 4'
     ]
@@ -189,8 +187,7 @@ def test_peaks_are_read_over_times_or_swings(tmp_path):
 @pytest.mark.parametrize(
     ("head", "steps", "are_times"),
     [
-        ("", "1 2 3 5", False),
-        ("", "0 0.5 1.0 1.5", False),
+        ("cycle,h\n", "0 0.5 1.0 1.5", False),
         ("", "0 5.83 11.7 17.4", True),
         ("t,h\n", "0 6 12 18", True),
         ("Cycle number,h\n", "0 1 2 3", False),
@@ -201,3 +198,32 @@ def test_counts_of_swings_are_told_from_times(tmp_path, head, steps, are_times):
     path = tmp_path / "peaks.csv"
     path.write_text(head + "".join(f"{step},{20 - index}\n" for index, step in enumerate(steps.split())))
     assert read_peaks(load_table(path), Reading())[2] is are_times
+
+
+@pytest.mark.parametrize("steps", ["0 6 12 18", "1 2 3 5", "0 0.5 1.0 1.5"])
+def test_whole_numbers_without_a_head_may_be_times_or_counts_and_are_asked_for(tmp_path, steps):
+    path = tmp_path / "peaks.csv"
+    path.write_text("".join(f"{step},{20 - index}\n" for index, step in enumerate(steps.split())))
+    with pytest.raises(FileError, match='"column 1" may be times or counts of swings: give it a head'):
+        read_peaks(load_table(path), Reading())
+    assert read_peaks(load_table(path), Reading(time="1"))[2]
+
+
+@pytest.mark.parametrize("head", ["index,time,angle", "n,t,x", "#,sec [s],x", ",time,x", "sample,Zeit,x"])
+def test_a_named_time_goes_before_an_index(read, head):
+    rows = "".join(f"{k},{t},{v}\n" for k, (t, v) in enumerate(zip(TIMES, VALUES, strict=True)))
+    # A head that begins with # is a remark, unless it stands in quotes.
+    (found,) = read(f"{head}\n{rows}".replace("#", '"#"'))
+    np.testing.assert_array_equal(found.record.time_s, TIMES)
+    np.testing.assert_array_equal(found.record.value, VALUES)
+
+
+@pytest.mark.parametrize("head", ["index,angle\n", "Sample no,x\n", "foo,x\n", ",x\n", ""])
+def test_counts_of_samples_are_no_seconds(read, head):
+    text = head + "".join(f"{k},{v}\n" for k, v in enumerate(VALUES))
+    assert (
+        "counts samples or swings, which are no times: give --rate, or --time 1 if it"
+        in refusal(read, text)[0]
+    )
+    np.testing.assert_array_equal(read(text, time="1")[0].record.time_s, np.arange(VALUES.size))
+    np.testing.assert_array_equal(read(text, rate_hz=4.0, column="2")[0].record.time_s, TIMES)

@@ -51,6 +51,35 @@ def test_times_of_peaks_give_the_frequency_over_missed_ones():
     assert both.mode.damped_period_s == pytest.approx(4.0)
 
 
+@pytest.mark.parametrize("resolution_s", [0.01, 0.5, 1.0])
+def test_swings_are_counted_though_times_are_rounded(resolution_s):
+    time_s = resolution_s * np.round(5.85 * np.arange(41.0) / resolution_s)
+    mode, found = identify_peaks(time_s, 25.0 * 0.97 ** np.arange(41.0))
+    assert (found.peaks, found.swings) == (41, 40.0)
+    # Rounding is no normal noise; 4 standard deviations are beyond its reach.
+    assert abs(mode.mode.damped_period_s - 5.85) < 4.0 * 5.85 * mode.frequency_hz_std / mode.frequency_hz
+
+
+@pytest.mark.parametrize(
+    "read",
+    [[0, 2, 4, 5, 7, 9, 11, 13, 16], [0, 2, 4, 7, 9, 11], [0, 1, 2, 3, 80, 81, 83]],
+)
+def test_missed_peaks_do_not_halve_the_frequency(read):
+    swing = np.array(read, dtype=float)
+    mode, found = identify_peaks(5.85 * swing, 25.0 * 0.97**swing)
+    assert found.swings == swing[-1]
+    assert mode.mode.damped_period_s == pytest.approx(5.85)
+
+
+@pytest.mark.parametrize(
+    ("read", "worst"), [([0.0, 1.0, 2.0, 3.3, 4.3, 5.8, 7.1], "5 and 6"), ([0, 3, 7, 10, 13], "2 and 3")]
+)
+def test_gaps_that_may_be_no_whole_swings_are_refused(read, worst):
+    swing = np.array(read)
+    with pytest.raises(PlantError, match=rf"peaks {worst} are .* times the usual gap: must be whole swings"):
+        identify_peaks(5.85 * swing, 25.0 * 0.97**swing)
+
+
 @pytest.mark.parametrize(
     ("swing", "height", "message"),
     [
