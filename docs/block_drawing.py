@@ -99,11 +99,21 @@ def _draw_number(axes: Axes, played: Played, name: str) -> None:
 
 
 def _corners(time_s: Sequence[float], values: Sequence[float]) -> tuple[list[float], list[float]]:
-    """Leave out the points between which a line is straight."""
-    slopes = np.diff(np.asarray(values, dtype=float))
-    bends = np.flatnonzero(np.abs(np.diff(slopes)) > STRAIGHT * (1e-12 + np.nanmax(np.abs(values)))) + 1
-    kept = [0, *bends.tolist(), len(values) - 1]
-    return [time_s[tick] for tick in kept], [float(values[tick]) for tick in kept]
+    """Leave out the points that lie on the line between others, to `STRAIGHT` of the largest value."""
+    line = np.asarray(values, dtype=float)
+    off = STRAIGHT * (1e-12 + np.nanmax(np.abs(line)))
+    kept, open_ends = {0, len(line) - 1}, [(0, len(line) - 1)]
+    while open_ends:
+        first, last = open_ends.pop()
+        between = np.arange(first + 1, last)
+        chord = line[first] + (line[last] - line[first]) * (between - first) / max(last - first, 1)
+        apart = np.nan_to_num(np.abs(line[between] - chord), nan=np.inf)
+        if apart.size and apart.max() > off:
+            middle = int(between[apart.argmax()])
+            kept.add(middle)
+            open_ends += [(first, middle), (middle, last)]
+    ticks = sorted(kept)
+    return [time_s[tick] for tick in ticks], [float(line[tick]) for tick in ticks]
 
 
 def _draw_lanes(axes: Axes, played: Played, names: Sequence[str], colour: str) -> None:

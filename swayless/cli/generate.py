@@ -87,6 +87,7 @@ def provenance(design: DesignFile) -> Provenance:
         source=design.source,
         design_sha256=design_sha256(design),
         hangs_on_rope=design.plant.kind == "crane",
+        is_arm=design.plant.kind == "arm",
     )
 
 

@@ -42,7 +42,7 @@ def wiring_verdicts(
     compiler: str | None,
     show: Callable[[str], None],
 ) -> list[Verdict]:
-    """Compile the wiring in C, and run the one in Structured Text against the references of all axes.
+    """Run the wiring in C and in Structured Text, and compare it with the references of all axes.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def wiring_verdicts(
         Shows progress.
     """
     from swayless.verify import find_compiler
-    from swayless.verify.wiring import WiredAxis, compile_wiring, verify_st_wiring
+    from swayless.verify.wiring import WiredAxis, verify_c_wiring, verify_st_wiring
 
     if not code:
         return []
@@ -66,9 +66,12 @@ def wiring_verdicts(
         for design, settings, files in blocks
     ]
     show("wiring of all axes")
+    verdicts = []
     if "c" in code:
-        compile_wiring(axes, code["c"], find_compiler(compiler))
-    return list(verify_st_wiring(axes, code["st"])) if "st" in code else []
+        verdicts += verify_c_wiring(name, axes, code["c"], find_compiler(compiler))
+    if "st" in code:
+        verdicts += verify_st_wiring(axes, code["st"])
+    return verdicts
 
 
 def _name(designs: Sequence[str]) -> str:

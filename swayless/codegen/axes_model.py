@@ -196,6 +196,18 @@ class AxesModel:
         return f" := {pin.st_initial}" if pin.st_initial else ""
 
 
+def axes_harness(name: str, blocks: Sequence[AxisBlock]) -> GeneratedFile:
+    """Generate the program that runs the wiring in C over recorded inputs, for verification only.
+
+    Parameters
+    ----------
+    name, blocks
+        As for `generate_axes`.
+    """
+    model = AxesModel(name, tuple(blocks))
+    return GeneratedFile("axes_harness.c", render("c/axes_harness.c.j2", name, model))
+
+
 def generate_axes(name: str, blocks: Sequence[AxisBlock], target: str) -> tuple[GeneratedFile, ...]:
     """Generate the wiring of several axes for one target.
 

@@ -37,6 +37,8 @@ class Provenance:
         SHA-256 of the canonical design, 64 hexadecimal digits.
     hangs_on_rope : bool
         Whether frequencies also are rope lengths: those of a single pendulum.
+    is_arm : bool
+        Whether it is an arm, and nothing hangs.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Provenance:
     source: str | None
     design_sha256: str
     hangs_on_rope: bool
+    is_arm: bool = False
 
     def __post_init__(self) -> None:
         if not re.fullmatch("[0-9a-f]{64}", self.design_sha256):
@@ -126,15 +129,15 @@ def header_lines(settings: ShaperSettings, provenance: Provenance, facts: list[s
     lines += [
         "NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.",
         "Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.",
-        f"{_disturbances(settings, provenance)} are beyond what a command can prevent.",
+        f"{_disturbances(provenance)} are beyond what a command can prevent.",
     ]
     return lines
 
 
-def _disturbances(settings: ShaperSettings, provenance: Provenance) -> str:
+def _disturbances(provenance: Provenance) -> str:
     """Name what shakes a load, on a rope or not, however it is commanded."""
-    hangs = provenance.hangs_on_rope or (settings.rope is not None and settings.rope.measured is ROPE)
-    return f"Wind, {'off-centre pick-up and a slack rope' if hangs else 'pushes and a load that slips'}"
+    on_rope = "off-centre pick-up and a slack rope"
+    return f"Wind, {'pushes and a load that slips' if provenance.is_arm else on_rope}"
 
 
 def _row_lines(row: Row, provenance: Provenance, title: str) -> list[str]:

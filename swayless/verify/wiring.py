@@ -5,20 +5,19 @@ Not for: the blocks themselves (`verification`).
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swayless.codegen.axes_model import AxisBlock
+from swayless.codegen.axes_model import AxisBlock, axes_harness
 from swayless.codegen.interface import input_pins
 from swayless.codegen.render import GeneratedFile
 from swayless.errors import VerificationError
 from swayless.verify.builder import Builder
+from swayless.verify.c_run import CompiledProgram
 from swayless.verify.comparison import compare
 from swayless.verify.operator_stimulus import touched
 from swayless.verify.records import output_dtype
@@ -51,23 +50,64 @@ class WiredAxis:
     st_files: tuple[GeneratedFile, ...]
 
 
-def compile_wiring(axes: Sequence[WiredAxis], wiring: Sequence[GeneratedFile], compiler: Compiler) -> None:
-    """Compile the example that calls all axes, with the warnings of a strict reviewer as errors.
+def verify_c_wiring(
+    name: str, axes: Sequence[WiredAxis], wiring: Sequence[GeneratedFile], compiler: Compiler
+) -> Iterator[Verdict]:
+    """Run the example's function for all axes and the references of all, each axis with commands of its own.
+
+    The example is compiled as it stands, with the warnings of a strict reviewer as errors.
+
+    Parameters
+    ----------
+    name : str
+        Name of the whole machine.
+    axes : sequence of WiredAxis
+        The axes.
+    wiring : sequence of GeneratedFile
+        The file of the example.
+    compiler : Compiler
+        What compiles it.
+
+    Yields
+    ------
+    Verdict
+        One for each axis.
 
     Raises
     ------
     VerificationError
-        If it does not compile.
+        If it does not compile, or its program fails.
     """
-    with tempfile.TemporaryDirectory(prefix="swayless-", ignore_cleanup_errors=True) as name:
-        folder = Path(name)
-        for file in (*wiring, *(file for axis in axes for file in axis.c_files)):
-            (folder / file.path).write_text(file.text, encoding="ascii", newline="\n")
-        blocks = [
-            folder / file.path for axis in axes for file in axis.c_files if file.path.endswith("_shaper.c")
-        ]
-        for file in wiring:
-            compiler.build([], [folder / file.path, *blocks], folder / "example.exe")
+    blocks = [axis.block for axis in axes]
+    inputs = _inputs(blocks)
+    outputs = np.dtype([(block.axis, output_dtype(block.settings)) for block in blocks], align=True)
+    files = [file for axis in axes for file in axis.c_files if not file.path.endswith("_example.c")]
+    with CompiledProgram([*files, *wiring], axes_harness(name, blocks), compiler, outputs) as program:
+        found = program.run(_pendants(blocks, inputs))
+    for block, own in zip(blocks, inputs, strict=True):
+        verdict = compare(run_reference(block.settings, own), found[block.axis])
+        yield Verdict(
+            f"wiring in C by {compiler.name}", f"{block.axis}, all inputs moving", own.size, verdict
+        )
+
+
+def _pendants(blocks: Sequence[AxisBlock], inputs: Sequence[NDArray[np.void]]) -> NDArray[np.void]:
+    """Lay the inputs of all axes out as the pendant of the example: shared ones first, each once."""
+    columns = {
+        pin.field: own[pin.field]
+        for block, own in zip(blocks, inputs, strict=True)
+        for pin in block.shared_pins
+    }
+    columns |= {
+        f"{block.axis} {pin.field}": own[pin.field]
+        for block, own in zip(blocks, inputs, strict=True)
+        for pin in block.own_pins
+    }
+    layout = np.dtype([(name, column.dtype) for name, column in columns.items()], align=True)
+    pendants = np.zeros(inputs[0].size, layout)
+    for name, column in columns.items():
+        pendants[name] = column
+    return pendants
 
 
 def verify_st_wiring(axes: Sequence[WiredAxis], wiring: Sequence[GeneratedFile]) -> Iterator[Verdict]:

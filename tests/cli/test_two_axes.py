@@ -45,6 +45,7 @@ def test_a_build_makes_and_proves_both_blocks_and_their_wiring(run, built: Path)
     codes = {each["code"] for each in document["runs"]}
     assert {code.split(" by")[0] for code in codes} == {
         *(f"{axis}, {language}" for axis in ("bridge", "trolley") for language in ("C", "ST")),
+        "wiring in C",
         "wiring in ST",
     }
     assert sorted(path.name for path in (built / "st").iterdir()) == [
@@ -53,6 +54,23 @@ def test_a_build_makes_and_proves_both_blocks_and_their_wiring(run, built: Path)
         "FB_two_axis_crane_trolley_Shaper.st",
     ]
     assert run("build", "crane.toml", "--check").code == 0
+
+
+def test_crossed_wires_in_c_are_found(run, built: Path) -> None:
+    shutil.rmtree(built / "st")
+    wiring = built / "c" / "two_axis_crane_example.c"
+    honest = wiring.read_text()
+    for right, wrong in (
+        (
+            "trolley.rope_length_m = pendant->rope_length_m",
+            "trolley.rope_length_m = pendant->hoist_speed_m_s",
+        ),
+        ("bridge.command = pendant->bridge_command", "bridge.command = pendant->trolley_command"),
+    ):
+        if right in honest:
+            wiring.write_text(honest.replace(right, wrong))
+            done = run("verify", "crane", "--soak-ticks", 0)
+            assert (done.code, "DIFFERS: wiring in C" in done.out) == (1, True), wrong
 
 
 def test_crossed_wires_are_found(run, built: Path) -> None:

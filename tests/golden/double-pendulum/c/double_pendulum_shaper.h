@@ -23,7 +23,7 @@
  *
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
  * Nothing may limit, ramp or filter the reference on its way to the drive: it would undo the shaping.
- * Wind, pushes and a load that slips are beyond what a command can prevent.
+ * Wind, off-centre pick-up and a slack rope are beyond what a command can prevent.
  */
 #ifndef DOUBLE_PENDULUM_SHAPER_H
 #define DOUBLE_PENDULUM_SHAPER_H

@@ -757,6 +757,32 @@ static two_axis_crane_bridge_real_t two_axis_crane_bridge_left(const two_axis_cr
     return left;
 }
 
+/* The row that may shape from the next tick on: the wanted one if its stop keeps within the ways. */
+static void two_axis_crane_bridge_look_ahead(two_axis_crane_bridge_shaper_t *s)
+{
+    const uint8_t before = s->next_row;
+    s->next_row = s->row;
+    if (two_axis_crane_bridge_settled(s)) {
+        const two_axis_crane_bridge_real_t down = two_axis_crane_bridge_way_down(two_axis_crane_bridge_abs(s->command));
+        const two_axis_crane_bridge_real_t pending = two_axis_crane_bridge_pending(s, s->wanted_row);
+        const two_axis_crane_bridge_real_t total = pending + ((s->command > 0.0) ? down : (0.0 - down));
+        if ((total <= (s->way_forward - s->reference)) && ((0.0 - total) <= (s->way_reverse + s->reference))) {
+            s->next_row = s->wanted_row;
+        }
+    }
+    if (s->next_row != before) {
+        s->foretold = false;
+    }
+}
+
+/* Take over the wanted row when settled; while the crane moves, only one that was found to keep within the ways. */
+static void two_axis_crane_bridge_choose_row(two_axis_crane_bridge_shaper_t *s)
+{
+    if (two_axis_crane_bridge_equal(s->command, 0.0) || (s->wanted_row == s->next_row)) {
+        s->row = s->wanted_row;
+    }
+}
+
 /* A command seen in the direction of motion; what points the other way is 0 first. */
 static two_axis_crane_bridge_real_t two_axis_crane_bridge_ahead(two_axis_crane_bridge_real_t command, bool forward)
 {
@@ -943,7 +969,7 @@ static void two_axis_crane_bridge_move(two_axis_crane_bridge_shaper_t *s, two_ax
 {
     const two_axis_crane_bridge_real_t before = s->command;
     if (!s->row_locked && two_axis_crane_bridge_settled(s)) {
-        s->row = s->wanted_row;
+        two_axis_crane_bridge_choose_row(s);
     }
     s->command = two_axis_crane_bridge_next(s, command);
     if (!two_axis_crane_bridge_equal(s->command, before)) {
@@ -973,7 +999,7 @@ static void two_axis_crane_bridge_move(two_axis_crane_bridge_shaper_t *s, two_ax
 /* The row that takes over if the command becomes 0 when settled. */
 static uint8_t two_axis_crane_bridge_row_at_rest(const two_axis_crane_bridge_shaper_t *s)
 {
-    return s->wanted_row;
+    return s->next_row;
 }
 
 /* A stop at once: the ramp goes down and the taps run out. */
@@ -1332,6 +1358,7 @@ static void two_axis_crane_bridge_tick(two_axis_crane_bridge_shaper_t *s, const 
     }
     two_axis_crane_bridge_watch_speed(s, input->actual_speed);
 
+    two_axis_crane_bridge_look_ahead(s);
     if (s->stepping || !s->foretold) {
         const two_axis_crane_bridge_glide_t stop = two_axis_crane_bridge_foretell(s);
         output->stop_distance = two_axis_crane_bridge_distance(stop.total);
@@ -1399,6 +1426,7 @@ void two_axis_crane_bridge_shaper_init(two_axis_crane_bridge_shaper_t *shaper)
     s->row = 0u;
     s->selected_row = 0u;
     s->wanted_row = 0u;
+    s->next_row = 0u;
     s->rope_row = 1u;
     s->lapped = false;
     s->foretold = false;

@@ -203,6 +203,7 @@ typedef struct {
     uint8_t row; ///< row in use
     uint8_t selected_row; ///< last valid selector
     uint8_t wanted_row; ///< row that takes over when settled
+    uint8_t next_row; ///< the one row that may take over in the next tick while the crane moves
     uint8_t rope_row; ///< row of the rope
     bool lapped; ///< the ring is full of commands since the last rest
     bool foretold; ///< settled, and the stop is foretold
