@@ -12,6 +12,7 @@ from typing import Any
 from swayless.cli.console import counted, print_line, print_table
 from swayless.cli.identify_input import AllFound, Found
 from swayless.cli.identify_remarks import of_record, remarks
+from swayless.cli.options import OptionError
 from swayless.machine.identified import IdentifiedPlant, write_identified
 from swayless.plant import Band, pendulum_rope_length_m
 from swayless.plant.identification import HELD_DEVIATIONS, IdentifiedMode, RopeOffset
@@ -200,13 +201,33 @@ def write_into(path: Path, found: AllFound) -> str:
         bands += [mode.band() for mode in found.records[0].modes[1:]]
     dampings = [mode for mode in first if mode.damping_ratio is not None]
     ranges = [mode.damping_range(HELD_DEVIATIONS) for mode in dampings] or [(0.0, 0.0)]
+    offset = found.offset
+    if offset is not None and offset.scale_is_doubtful and path.exists():
+        raise OptionError(
+            [
+                f"--into {path}: {offset.slope:.4f} m of pendulum for each metre shown, which no offset"
+                " corrects: check the scale of the encoder first"
+            ]
+        )
     plant = IdentifiedPlant(
         kind="crane" if found.is_pendulum else "arm",
         bands=tuple(bands),
         damping_ratio=min((mode.damping_ratio or 0.0 for mode in dampings), default=None),
         damping_range=(min(low for low, _ in ranges), max(high for _, high in ranges)),
+        rope_offset_m=_offset_range_m(found),
     )
     return write_identified(path, plant)
+
+
+def _offset_range_m(found: AllFound) -> tuple[float, float] | None:
+    """Give from and to what the pendulum is longer than the rope shown; None where none was shown."""
+    if found.offset is not None:
+        middle_m, reach_m = found.offset.offset_m, HELD_DEVIATIONS * found.offset.offset_m_std
+        return middle_m - reach_m, middle_m + reach_m
+    shown_m, band = found.records[0].rope_length_m, found.records[0].modes[0].band()
+    if shown_m is None:
+        return None
+    return pendulum_rope_length_m(band.high_hz) - shown_m, pendulum_rope_length_m(band.low_hz) - shown_m
 
 
 def _union(bands: list[Band]) -> Band:

@@ -22,13 +22,16 @@ from swayless.machine.identified_text import replaced
 from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.names import name_problem
 from swayless.machine.plant_section import PlantKind
-from swayless.machine.quantity import UNITS, Dimension, unit_of
+from swayless.machine.quantity import UNITS, Dimension, QuantityError, parse_quantity, unit_of
 from swayless.machine.source import read_source
 from swayless.machine.writing import write_text_atomically
 from swayless.plant import Band, pendulum_rope_length_m
 
 _DIGITS = 6
 _TICKS_PER_PERIOD = 50
+
+_ONE_ROPE = 0.1
+"""A range of ropes that is narrower, relatively, is one rope and its uncertainty."""
 
 
 @dataclass(frozen=True)
@@ -45,12 +48,16 @@ class IdentifiedPlant:
         Of the first mode; None where it is not known, and a file keeps its own.
     damping_range : tuple of two floats
         Lowest and highest damping ratio that a row has to hold.
+    rope_offset_m : tuple of two floats or None
+        By how much the pendulum is longer than the rope that the crane shows, from and to; None where the
+        rope was not known.
     """
 
     kind: PlantKind
     bands: tuple[Band, ...]
     damping_ratio: float | None
     damping_range: tuple[float, float]
+    rope_offset_m: tuple[float, float] | None = None
 
 
 def write_identified(path: Path, plant: IdentifiedPlant) -> str:
@@ -94,7 +101,8 @@ def updated_machine_text(path: Path, text: str, plant: IdentifiedPlant) -> tuple
     Raises
     ------
     FileError
-        If the text is no machine file with one frequency range or rope range in a section of its own.
+        If the text is no machine file with one frequency range or rope range in a section of its own, or if
+        it has a range of ropes and nobody knows which of them was measured.
     """
     try:
         document = tomllib.loads(text)
@@ -109,7 +117,9 @@ def updated_machine_text(path: Path, text: str, plant: IdentifiedPlant) -> tuple
     if several or key not in old:
         reason = f"{several[0]} makes several modes of it" if several else f"there is no {key}"
         raise FileError([f"{path}: [{section}]: {reason}: write what was identified by hand"])
-    values = {key: _range_text(key, old[key], plant.bands[0])}
+    place = f"{path}: [{section}]: {key} = {_shown(old[key])}"
+    length = _lengths(place, old[key], plant) if key == "rope_length" else None
+    values = {key: _range_text(key, old[key], plant.bands[0]) if length is None else length}
     if plant.damping_ratio is not None:
         values["damping_ratio"] = f"{plant.damping_ratio:.4g}"
     new = replaced(text.replace("\r\n", "\n"), section, values)
@@ -118,8 +128,39 @@ def updated_machine_text(path: Path, text: str, plant: IdentifiedPlant) -> tuple
         raise FileError(
             [f"{path}: [{section}]: is not written as a section with its keys below: write it by hand"]
         )
-    said = ", ".join(f"{name} = {value} (was {_shown(old.get(name))})" for name, value in values.items())
+    why = {key: _reason(plant) if length is not None else "two standard deviations to either side"}
+    said = ", ".join(
+        f"{name} = {value} (was {'; '.join([_shown(old.get(name)), *([why[name]] if name in why else [])])})"
+        for name, value in values.items()
+    )
     return new.replace("\n", "\r\n") if "\r\n" in text else new, f"[{section}] {said}"
+
+
+def _reason(plant: IdentifiedPlant) -> str:
+    low_m, high_m = plant.rope_offset_m or (0.0, 0.0)
+    return f"the pendulum is {low_m:+.4g} to {high_m:+.4g} m longer than shown"
+
+
+def _lengths(place: str, old: object, plant: IdentifiedPlant) -> str | None:
+    """Correct the ropes of a file by the offset; None for a single one, measured without its length."""
+    ends = old if isinstance(old, list) else [old]
+    try:
+        lengths_m = [parse_quantity(end, "length") for end in ends]
+    except QuantityError as error:
+        raise FileError([f"{place}: {error}"]) from error
+    if plant.rope_offset_m is None:
+        if max(lengths_m) - min(lengths_m) > _ONE_ROPE * max(lengths_m):
+            raise FileError(
+                [
+                    f"{place}: is a range of ropes, and the swing tells of one: give --rope-length, what the"
+                    " crane showed, and the range is kept and corrected by the difference"
+                ]
+            )
+        return None
+    low_m, high_m = min(lengths_m) + plant.rope_offset_m[0], max(lengths_m) + plant.rope_offset_m[1]
+    if low_m <= 0.0:
+        raise FileError([f"{place}: corrected, its shortest would be {low_m:.4g} m: must be > 0"])
+    return _ends_text("length", old, low_m, high_m)
 
 
 def _shown(value: object) -> str:
@@ -137,6 +178,11 @@ def _range_text(key: str, old: object, band: Band) -> str:
     low, high = band.low_hz, band.high_hz
     if dimension == "length":
         low, high = pendulum_rope_length_m(high), pendulum_rope_length_m(low)
+    return _ends_text(dimension, old, low, high)
+
+
+def _ends_text(dimension: Dimension, old: object, low: float, high: float) -> str:
+    """Write a range in the unit of the file, rounded outward."""
     unit = unit_of(old, dimension)
     first = old[0] if isinstance(old, list) and old else old
     ends = (_rounded(low, dimension, unit, ROUND_FLOOR), _rounded(high, dimension, unit, ROUND_CEILING))

@@ -103,7 +103,7 @@ def test_two_modes_that_cannot_be_told_apart_are_refused(run, tmp_path):
 @pytest.mark.parametrize("example", ["workshop-crane", "flexible-arm"])
 def test_a_machine_file_gets_the_band_and_keeps_its_comments(run, record, tmp_path, example):
     machine = tmp_path / "machine.toml"
-    machine.write_text(example_text(example))
+    machine.write_text(example_text(example).replace("rope_length = [2.0, 10.0]", "rope_length = 6"))
     document = found(run("identify", record, "--linear", "--into", machine, "--json"))
     low, high = load_machine(machine).plant.frequency_hz
     assert (low, high) == (
@@ -113,6 +113,17 @@ def test_a_machine_file_gets_the_band_and_keeps_its_comments(run, record, tmp_pa
     assert load_machine(machine).plant.damping_ratio == pytest.approx(document["damping_ratio"], rel=1e-3)
     assert machine.read_text().count("#") == example_text(example).count("#")
     assert document["into"] == str(machine)
+
+
+def test_a_range_of_ropes_is_corrected_by_the_one_that_was_measured(run, record, tmp_path):
+    machine = tmp_path / "crane.toml"
+    machine.write_text(example_text("workshop-crane"))
+    assert "give --rope-length" in run("identify", record, "--into", machine).err
+    assert run("identify", record, "--rope-length", "6", "--into", machine).code == 0
+    longest_m = 9.80665 / (2.0 * np.pi * load_machine(machine).plant.frequency_hz[0]) ** 2
+    offset_m = 9.80665 / (2.0 * np.pi * FREQUENCY_HZ) ** 2 - 6.0
+    # The record tells the pendulum to some cm; two standard deviations more are held.
+    assert 10.0 + offset_m - 0.01 < longest_m < 10.0 + offset_m + 0.05
 
 
 def test_a_new_machine_file_can_be_built_and_holds_the_band(run, record, tmp_path):

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from swayless.errors import FileError
@@ -10,6 +12,7 @@ from swayless.plant import Band, pendulum_frequency_hz
 
 BAND = Band(0.1981234567, 0.2018765432)
 PLANT = IdentifiedPlant("crane", (BAND,), 0.00412345, (0.003, 0.0052))
+ON_A_ROPE = replace(PLANT, rope_offset_m=(0.25, 0.5))
 
 
 def holds(frequency_hz, band):
@@ -27,7 +30,7 @@ def test_every_example_keeps_all_but_the_plant_and_says_what_was_exchanged(tmp_p
             write_identified(path, PLANT)
         assert path.read_text() == example_text(name)
         return
-    said = write_identified(path, PLANT)
+    said = write_identified(path, ON_A_ROPE)
     before, after = example_text(name).splitlines(), path.read_text().splitlines()
     changed = [line for line in after if line not in before]
     assert len(changed) == 2
@@ -41,21 +44,54 @@ def test_every_example_keeps_all_but_the_plant_and_says_what_was_exchanged(tmp_p
 
 def test_the_band_of_the_machine_is_what_was_identified(tmp_path):
     path = tmp_path / "crane.toml"
-    path.write_text(example_text("workshop-crane"))
+    path.write_text(example_text("workshop-crane").replace("rope_length = [2.0, 10.0]", "rope_length = 6"))
     write_identified(path, PLANT)
     plant = load_machine(path).plant
     assert holds(plant.frequency_hz, BAND)
     assert plant.damping_ratio == pytest.approx(0.004123)
-    path.write_text(example_text("srtc-gantry"))
+    # Once written it is still one rope, and can be written again.
     write_identified(path, PLANT)
-    assert ' ft"' in path.read_text().partition("rope_length = ")[2].splitlines()[0]
     assert holds(load_machine(path).plant.frequency_hz, BAND)
+
+
+def test_a_range_of_ropes_is_kept_and_corrected_by_the_offset(tmp_path):
+    path = tmp_path / "crane.toml"
+    path.write_text(example_text("workshop-crane"))
+    said = write_identified(path, ON_A_ROPE)
+    assert said.startswith(
+        "[crane] rope_length = [2.25, 10.5] (was [2.0, 10.0];"
+        " the pendulum is +0.25 to +0.5 m longer than shown)"
+    )
+    assert "rope_length = [2.25, 10.5] " in path.read_text()
+    path.write_text(example_text("srtc-gantry"))
+    write_identified(path, replace(PLANT, rope_offset_m=(0.3048, 0.6096)))
+    assert ' ft"' in path.read_text().partition("rope_length = ")[2].splitlines()[0]
+    corrected = Band(pendulum_frequency_hz(31.0 * 0.3048), pendulum_frequency_hz(10.0 * 0.3048))
+    assert holds(load_machine(path).plant.frequency_hz, corrected)
+
+
+@pytest.mark.parametrize(
+    ("plant", "problem"),
+    [
+        (
+            PLANT,
+            r"rope_length = \[2\.0, 10\.0\]: is a range of ropes, and .*: give --rope-length",
+        ),
+        (replace(PLANT, rope_offset_m=(-2.5, -2.4)), r"its shortest would be -0\.5 m: must be > 0"),
+    ],
+)
+def test_a_range_of_ropes_is_not_narrowed_to_the_one_that_was_measured(tmp_path, plant, problem):
+    path = tmp_path / "crane.toml"
+    path.write_text(example_text("workshop-crane"))
+    with pytest.raises(FileError, match=problem):
+        write_identified(path, plant)
+    assert path.read_text() == example_text("workshop-crane")
 
 
 def test_damping_that_is_not_known_leaves_that_of_the_file(tmp_path):
     path = tmp_path / "crane.toml"
     path.write_text(example_text("workshop-crane"))
-    write_identified(path, IdentifiedPlant("crane", (BAND,), None, (0.0, 0.0)))
+    write_identified(path, replace(ON_A_ROPE, damping_ratio=None))
     assert load_machine(path).plant.damping_ratio == 0.002
 
 
@@ -81,7 +117,7 @@ def test_a_new_file_has_a_tick_that_suits_the_mode(high_hz, tick):
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("crane = { rope_length = [2, 3] }\n", r"\[crane\]: is not written as a section"),
+        ("crane = { rope_length = 3 }\n", r"\[crane\]: is not written as a section"),
         ("[crane]\nmax_speed = 1\n", r"\[crane\]: there is no frequency: write"),
         ("[drive]\n", "has neither"),
         ("[crane\n", "not valid TOML"),
