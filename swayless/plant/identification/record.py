@@ -16,6 +16,9 @@ FloatArray: TypeAlias = NDArray[np.float64]
 FEWEST_SAMPLES = 8
 """A mode has four unknowns, offset and drift are two; two samples more tell the noise."""
 
+LARGEST, SMALLEST = 1e100, 1e-100
+"""Sizes whose squares, summed, are numbers; no unit of a measurement needs others."""
+
 
 class Quantity(StrEnum):
     """What was measured of the swing."""
@@ -42,7 +45,8 @@ class SwingRecord:
     Raises
     ------
     PlantError
-        If times or values are not finite, times do not rise, or there are fewer than eight samples.
+        If times or values are not finite, times do not rise, there are fewer than eight samples, or the
+        largest value is beyond 1e100 or, unless all are 0, below 1e-100.
 
     Examples
     --------
@@ -66,6 +70,12 @@ class SwingRecord:
             raise PlantError("times and values must be finite: leave missing samples out")
         if not (np.diff(self.time_s) > 0.0).all():
             raise PlantError("times must rise from sample to sample")
+        largest = float(np.max(np.abs(self.value)))
+        if largest != 0.0 and not SMALLEST <= largest <= LARGEST:
+            raise PlantError(
+                f"the largest value is {largest:.3g}: must be from {SMALLEST:g} to {LARGEST:g}; record it in"
+                " another unit"
+            )
 
     @property
     def duration_s(self) -> float:

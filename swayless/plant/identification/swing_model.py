@@ -35,12 +35,15 @@ class SwingModel:
         Degree of the polynomial; 1 for an offset and a straight drift.
     waveform : Waveform or None
         What large swings do to the first mode; None for a linear one.
+    sampled_rad_s : float or None
+        `highest_rad_s` where these times are a part of a record; None for a whole one.
     """
 
     time_s: FloatArray
     modes: int = 1
     drift_degree: int = 1
     waveform: Waveform | None = None
+    sampled_rad_s: float | None = None
 
     @property
     def parameter_count(self) -> int:
@@ -50,7 +53,7 @@ class SwingModel:
     @cached_property
     def highest_rad_s(self) -> float:
         """Frequency of two samples a swing, above which waves look like slower ones."""
-        return float(np.pi / np.median(np.diff(self.time_s)))
+        return self.sampled_rad_s or float(np.pi / np.median(np.diff(self.time_s)))
 
     @cached_property
     def drift(self) -> FloatArray:

@@ -122,12 +122,33 @@ def test_a_record_without_a_swing_is_refused(value, message):
         (np.zeros(9), np.ones(9), "times must rise"),
         (np.arange(9.0), np.full(9, np.nan), "must be finite"),
         (np.arange(9.0), np.ones(8), "the same length"),
+        (np.arange(9.0), np.full(9, 1e300), r"largest value is 1e\+300: must be from 1e-100 to 1e\+100"),
+        (np.arange(9.0), np.full(9, -1e-300), "largest value is 1e-300: must be from"),
     ],
-    ids=["few", "standing", "nan", "lengths"],
+    ids=["few", "standing", "nan", "lengths", "large", "small"],
 )
 def test_what_is_no_record_is_refused(time_s, value, message):
     with pytest.raises(PlantError, match=message):
         SwingRecord(time_s, value)
+
+
+@pytest.mark.parametrize("size", [1e-90, 1e90])
+def test_the_unit_of_the_values_does_not_matter(size):
+    plain, scaled = (identify_swing(SwingRecord(TIME_S, unit * noisy(SLOW, 0.05))) for unit in (1.0, size))
+    # 1e-9: both fits end within 1e-4 of a standard deviation of the optimum.
+    assert scaled.modes[0].frequency_hz == pytest.approx(plain.modes[0].frequency_hz, rel=1e-9)
+    assert scaled.modes[0].amplitude == pytest.approx(size * plain.modes[0].amplitude, rel=1e-6)
+
+
+def test_long_records_end_at_the_optimum_of_all_samples():
+    time_s = np.arange(60_000) * 1e-3
+    value = noisy(Truth(19.0, 0.001), 0.3, 4, time_s)
+    found = identify_swing(SwingRecord(time_s, value))
+    assert len(found.fit.residual) == time_s.size
+    for slip in (-1e-6, 1e-6):
+        beside = found.fit.parameters * (1.0 + slip * (np.arange(found.fit.parameters.size) == 0))
+        _, residual, _ = found.fit.model.settle(beside, value)
+        assert residual @ residual > found.fit.squares
 
 
 def test_a_hundred_thousand_samples_take_less_than_a_second():
