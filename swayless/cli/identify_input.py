@@ -21,7 +21,7 @@ from swayless.errors import FileError, PlantError
 from swayless.machine.checks import quantity
 from swayless.machine.identified_record import Reading, ReadRecord, read_peaks, read_swings
 from swayless.machine.identified_table import load_table
-from swayless.machine.identified_units import VALUE_UNITS, unit_named
+from swayless.machine.identified_units import TIME_UNITS, VALUE_UNITS, unit_named
 from swayless.machine.plant_section import LENGTH
 from swayless.plant.identification import (
     Decrement,
@@ -208,13 +208,18 @@ def _stopwatch(
     if not periods_s:
         return []
     groups = [np.array([period]) for period in periods_s] if one_each else [np.array(periods_s)]
-    decimals = max(len(text.partition(".")[2].rstrip(" smin")) for text in asked.periods)
+    resolution_s = min(_resolution_s(text) for text in asked.periods)
     return [
-        identify_periods(
-            group, swings=asked.swings, resolution_s=10.0**-decimals, amplitude_rad=amplitude_rad
-        )
+        identify_periods(group, swings=asked.swings, resolution_s=resolution_s, amplitude_rad=amplitude_rad)
         for group in groups
     ]
+
+
+def _resolution_s(text: str) -> float:
+    """Give the size of the last digit of a time, in s."""
+    number = text.strip().rstrip("abcdefghijklmnopqrstuvwxyz ")
+    unit_s = TIME_UNITS[text.strip()[len(number) :].strip() or "s"]
+    return unit_s * 10.0 ** -len(number.partition(".")[2])
 
 
 def _swings(path: Path, reading: Reading, asked: Asked) -> Iterator[Found]:
@@ -222,8 +227,16 @@ def _swings(path: Path, reading: Reading, asked: Asked) -> Iterator[Found]:
     for read in read_swings(load_table(path), reading):
         all_high = bool((read.record.value > 0.0).all())
         with _named(path, hint="; heights of peaks need --peaks" if all_high else ""):
-            swing = identify_swing(read.record, pendulum=asked.pendulum, modes=asked.modes)
+            swing = identify_swing(read.record, pendulum=_pendulum(asked, read), modes=asked.modes)
         yield Found(str(path), swing.modes, read.rope_length_m, swing, read)
+
+
+def _pendulum(asked: Asked, read: ReadRecord) -> bool | None:
+    """Say whether a load on a rope swings: it does where its rope is given."""
+    has_rope = bool(asked.rope_length) or read.rope_length_m is not None
+    if asked.pendulum is None and has_rope and read.record.quantity is not Quantity.value:
+        return True
+    return asked.pendulum
 
 
 def _peaks(path: Path, asked: Asked, reading: Reading, stopwatch: list[IdentifiedMode]) -> Found:

@@ -179,6 +179,20 @@ def test_a_stopwatch_gives_a_frequency_and_no_damping(run):
     assert corrected["frequency_hz"] == pytest.approx(slower / 6.1, rel=1e-5)
 
 
+def test_the_unit_of_a_stopwatch_does_not_matter(run):
+    seconds, milliseconds = (
+        found(run("identify", "--periods", *periods, "--json"))["frequency_hz_std"]
+        for periods in (("6.100", "6.000", "6.200"), ("6100 ms", "6000ms", "6200 ms"))
+    )
+    assert milliseconds == pytest.approx(seconds)
+
+
+def test_a_swing_whose_rope_is_given_is_that_of_a_load(run, tmp_path):
+    path = write(tmp_path / "sway.csv", swing(amplitude=0.5), "time_s,sway_m")
+    assert "does not show whether it is one" in run("identify", path).out
+    assert "does not show whether it is one" not in run("identify", path, "--rope-length", "6").out
+
+
 def test_a_stopwatch_on_several_ropes_gives_their_offset(run):
     periods = [f"{2.0 * np.pi * np.sqrt((rope + 0.5) / 9.80665):.3f}" for rope in (2, 5, 10)]
     offset = found(run("identify", "--periods", *periods, "--rope-length", "2", "5", "10", "--json"))[
