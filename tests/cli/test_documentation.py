@@ -73,7 +73,7 @@ HEADINGS = {"design FAMILY": "design"} | {
     name: name
     for name in (
         *("init", "build", "design si", "design fd", "design bank", "design recommend"),
-        *("plot", "simulate", "identify", "generate", "verify"),
+        *("plot", "simulate", "identify", "profile optimal", "generate", "verify"),
     )
 }
 

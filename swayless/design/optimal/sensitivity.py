@@ -72,8 +72,10 @@ def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike)
     >>> swing_left(plant, Command(np.pi / 10.0, [0.5], 1.0), [1.0, 1.2]).round(4)
     array([[0.   , 0.309]])
     """
-    poles, vectors = np.linalg.eig(plant.a)
-    residues = (plant.c @ vectors) * np.linalg.solve(vectors, plant.b)
+    from scipy.linalg import eig
+
+    # Vectors from either side, each pole by itself: beside a double integrator the vectors are no basis.
+    poles, left, right = eig(plant.a, left=True, right=True)
     rows = []
     for pole in plant.ringing_poles_rad_s:
         nearest = np.abs(poles - pole).argmin()
@@ -81,8 +83,10 @@ def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike)
         increments = command.increments
         since_s = command.duration_s - increments.times_s
         swings = np.exp(actual[:, np.newaxis] * since_s) @ increments.amplitudes
-        rows.append(2.0 * np.abs(residues[nearest] / pole) * np.abs(swings))
-    return np.array(rows).reshape(len(rows), -1)
+        before, after = left[:, nearest].conj(), right[:, nearest]
+        residue = (plant.c @ after) * (before @ plant.b) / (before @ after)
+        rows.append(2.0 * np.abs(residue / pole) * np.abs(swings))
+    return np.array(rows).reshape(len(rows), np.size(frequency_ratio))
 
 
 def transform_derivatives(command: Command, pole_rad_s: complex, order: int) -> ComplexArray:
