@@ -201,6 +201,7 @@ def write_into(path: Path, found: AllFound) -> str:
         bands += [mode.band() for mode in found.records[0].modes[1:]]
     dampings = [mode for mode in first if mode.damping_ratio is not None]
     ranges = [mode.damping_range(HELD_DEVIATIONS) for mode in dampings] or [(0.0, 0.0)]
+    seen = [mode.damping_ratio or 0.0 for mode in dampings if not mode.damping_is_below_resolution]
     offset = found.offset
     if offset is not None and offset.scale_is_doubtful and path.exists():
         raise OptionError(
@@ -212,7 +213,7 @@ def write_into(path: Path, found: AllFound) -> str:
     plant = IdentifiedPlant(
         kind="crane" if found.is_pendulum else "arm",
         bands=tuple(bands),
-        damping_ratio=min((mode.damping_ratio or 0.0 for mode in dampings), default=None),
+        damping_ratio=min(seen, default=None),
         damping_range=(min(low for low, _ in ranges), max(high for _, high in ranges)),
         rope_offset_m=_offset_range_m(found),
     )

@@ -126,6 +126,14 @@ def test_a_range_of_ropes_is_corrected_by_the_one_that_was_measured(run, record,
     assert 10.0 + offset_m - 0.01 < longest_m < 10.0 + offset_m + 0.05
 
 
+def test_damping_that_was_not_seen_leaves_that_of_the_file(run, tmp_path):
+    machine = tmp_path / "crane.toml"
+    machine.write_text(example_text("workshop-crane"))
+    path = write(tmp_path / "short.csv", swing(noise=0.1))
+    assert run("identify", path, "--end", "9", "--rope-length", "6", "--into", machine).code == 0
+    assert load_machine(machine).plant.damping_ratio == 0.002
+
+
 def test_a_new_machine_file_can_be_built_and_holds_the_band(run, record, tmp_path):
     document = found(run("identify", record, "--into", "new.toml", "--json"))
     row = load_machine(tmp_path / "new.toml").rows[0]
