@@ -66,7 +66,7 @@ def wiring_verdicts(
         for design, settings, files in blocks
     ]
     show("wiring of all axes")
-    verdicts = []
+    verdicts: list[Verdict] = []
     if "c" in code:
         verdicts += verify_c_wiring(name, axes, code["c"], find_compiler(compiler))
     if "st" in code:

@@ -5,6 +5,8 @@ Not for: what it shall do (`swayless.machine.profile_file`).
 
 from __future__ import annotations
 
+import numpy as np
+
 from swayless.design.optimal import LinearPlant
 from swayless.design.optimal.linear_plant import LARGEST_ORDER
 from swayless.errors import DesignError
@@ -67,7 +69,7 @@ def _state_space(table: Table) -> LinearPlant | None:
         sizes = f"rows of {', '.join(str(len(line)) for line in a)}, b of {len(b)}, c of {len(c)}"
         table.place("a").problem(f"must be square, b and c as long: has {len(a)} {sizes}")
         return None
-    return LinearPlant(a, b, c, d)
+    return LinearPlant(np.array(a), np.array(b), np.array(c), d)
 
 
 def load_below_trolley(mode: Mode) -> LinearPlant:

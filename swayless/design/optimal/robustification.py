@@ -132,7 +132,7 @@ def rest_conditions(
     for pole, length in chains:
         a, b = jordan_chain(pole, length)
         systems.append(sampled(a, b, tick_s))
-        finals.append(np.linalg.solve(a, -held * b))
+        finals.append(np.asarray(np.linalg.solve(a, -held * b), dtype=np.float64))
         # The last link of a chain is the plant's own mode, which is kept already.
         kept.append(np.eye(b.size)[: 2 * (length - skipped)])
     selection = _diagonal(kept)

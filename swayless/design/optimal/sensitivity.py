@@ -72,18 +72,15 @@ def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike)
     >>> swing_left(plant, Command(np.pi / 10.0, [0.5], 1.0), [1.0, 1.2]).round(4)
     array([[0.   , 0.309]])
     """
-    from scipy.linalg import eig
-
     # Vectors from either side, each pole by itself: beside a double integrator the vectors are no basis.
-    poles, left, right = eig(plant.a, left=True, right=True)
+    sides = np.linalg.eig(plant.a), np.linalg.eig(plant.a.T)
     rows = []
     for pole in plant.ringing_poles_rad_s:
-        nearest = np.abs(poles - pole).argmin()
         actual = pole * np.asarray(frequency_ratio, dtype=np.float64)
         increments = command.increments
         since_s = command.duration_s - increments.times_s
         swings = np.exp(actual[:, np.newaxis] * since_s) @ increments.amplitudes
-        before, after = left[:, nearest].conj(), right[:, nearest]
+        after, before = (vectors[:, np.abs(poles - pole).argmin()] for poles, vectors in sides)
         residue = (plant.c @ after) * (before @ plant.b) / (before @ after)
         rows.append(2.0 * np.abs(residue / pole) * np.abs(swings))
     return np.array(rows).reshape(len(rows), np.size(frequency_ratio))
