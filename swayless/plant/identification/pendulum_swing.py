@@ -1,4 +1,7 @@
-"""Whether a swing is that of a load on a rope, and its fit. Not for: the wave itself (`waveform`)."""
+"""Whether a swing may be that of a load on a rope, and its fit.
+
+Not for: the wave itself (`waveform`), or whether it is one (`decision`).
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,8 @@ import numpy as np
 
 from swayless.errors import PlantError
 from swayless.plant.identification.fitting import Fit, fit
-from swayless.plant.identification.record import Quantity, SwingRecord
-from swayless.plant.identification.swing_model import COSINE, DECAY, FREQUENCY, SINE
+from swayless.plant.identification.record import FloatArray, SwingRecord
+from swayless.plant.identification.swing_model import COSINE, DECAY, FREQUENCY, SINE, SwingModel
 from swayless.plant.identification.waveform import WAVEFORMS, Waveform, lag_s
 from swayless.plant.pendulum import pendulum_frequency_hz
 
@@ -19,14 +22,9 @@ SHORTEST_ROPE_M = 0.1
 LARGEST_SWING_RAD = 0.8
 """Cranes swing less. An angle that seems to swing more may be in another unit: it has to show its lag."""
 
-_DECISIVE = 4.0
-"""Difference of log likelihoods at which the record decides: odds of 55 to 1."""
 
-_TINY = float(np.finfo(np.float64).tiny)
-
-
-def as_pendulum(single: Fit, record: SwingRecord, pendulum: bool | None) -> tuple[Fit, Fit | None]:
-    """Fit the wave of a load on a rope where that may be what swings.
+def possible_waveform(single: Fit, record: SwingRecord, pendulum: bool | None) -> Waveform | None:
+    """Say what the wave of a load on a rope does to such a record, where that may be what swings.
 
     Parameters
     ----------
@@ -38,9 +36,8 @@ def as_pendulum(single: Fit, record: SwingRecord, pendulum: bool | None) -> tupl
 
     Returns
     -------
-    taken, other : Fit, Fit or None
-        The fit to take, and the one that nobody has ruled out: neither the caller, nor the record, nor
-        physics. None if there is no such.
+    Waveform or None
+        None where the caller or physics rules it out.
 
     Raises
     ------
@@ -49,39 +46,42 @@ def as_pendulum(single: Fit, record: SwingRecord, pendulum: bool | None) -> tupl
     """
     waveform = WAVEFORMS.get(record.quantity)
     if waveform is None or pendulum is False:
-        return single, None
+        return None
     fastest_rad_s = 2.0 * np.pi * pendulum_frequency_hz(SHORTEST_ROPE_M)
     if pendulum is None and single.mode(0)[FREQUENCY] > fastest_rad_s:
-        return single, None
+        return None
     angle = waveform.angle_per_value(float(single.mode(0)[FREQUENCY])) * single.amplitude(0)
-    if angle >= np.pi / 2.0:
-        if pendulum:
-            raise PlantError(
-                f"a load on a rope would swing {np.degrees(angle):.3g} deg: must be below 90: check the unit"
-            )
-        return single, None
-    bent = _bent(single, record, waveform)
+    if angle < np.pi / 2.0:
+        return waveform
     if pendulum:
-        return bent, None
-    gain = single.freedom / 2.0 * float(np.log(max(single.squares, _TINY) / max(bent.squares, _TINY)))
-    if abs(gain) > _DECISIVE:
-        return (bent if gain > 0.0 else single), None
-    usual = record.quantity is Quantity.angle and first_angle_rad(bent) < LARGEST_SWING_RAD
-    return (bent, single) if usual else (single, bent)
+        raise PlantError(
+            f"a load on a rope would swing {np.degrees(angle):.3g} deg: must be below 90: check the unit"
+        )
+    return None
 
 
-def _bent(single: Fit, record: SwingRecord, waveform: Waveform) -> Fit:
-    """Fit the bent wave, starting at the frequency whose lagging phase is nearest to the linear one."""
-    model = replace(single.model, waveform=waveform)
-    start = single.parameters.copy()
-    angle = waveform.angle_per_value(float(start[FREQUENCY])) * single.amplitude(0)
+def bent(model: SwingModel, parameters: FloatArray, record: SwingRecord, waveform: Waveform) -> Fit:
+    """Fit the bent wave, starting at the frequency whose lagging phase is nearest to the linear one.
+
+    Parameters
+    ----------
+    model : SwingModel
+        Of linear modes.
+    parameters : ndarray, shape (model.parameter_count,)
+        The first mode is that of the load on a rope.
+    record : SwingRecord
+    waveform : Waveform
+    """
+    start = parameters.copy()
+    amplitude = float(np.hypot(start[COSINE], start[SINE]))
+    angle = waveform.angle_per_value(float(start[FREQUENCY])) * amplitude
     lag, _, _ = lag_s(model.time_s, float(start[DECAY]), angle)
     weight = np.exp(-2.0 * max(0.0, float(start[DECAY])) * model.time_s)
     slope, late = np.polynomial.polynomial.polyfit(model.time_s, lag, 1, w=np.sqrt(weight))[::-1]
     start[FREQUENCY] /= 1.0 - slope
     turn = complex(start[COSINE], -start[SINE]) * np.exp(1j * start[FREQUENCY] * late)
     start[COSINE], start[SINE] = turn.real, -turn.imag
-    return fit(model, record.value, start)
+    return fit(replace(model, waveform=waveform), record.value, start)
 
 
 def first_angle_rad(found: Fit) -> float:

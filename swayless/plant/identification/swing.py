@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from swayless.errors import PlantError
+from swayless.plant.identification.decision import decided
 from swayless.plant.identification.fitting import Fit, fit
 from swayless.plant.identification.identified_mode import IdentifiedMode
 from swayless.plant.identification.noise import Noise, noise_near
-from swayless.plant.identification.order import are_told_apart, second_mode, single_mode, turns_apart
-from swayless.plant.identification.pendulum_swing import as_pendulum, cut_off, first_angle_rad
+from swayless.plant.identification.order import are_told_apart, single_mode, turns_apart
+from swayless.plant.identification.pendulum_swing import cut_off, first_angle_rad
 from swayless.plant.identification.record import FloatArray, SwingRecord
 from swayless.plant.identification.swing_model import DECAY, FREQUENCY, PER_MODE
 
@@ -134,15 +135,18 @@ def identify_swing(
     if modes == MOST_MODES and record.time_s.size <= PER_MODE * MOST_MODES + 4:
         raise PlantError(f"{record.time_s.size} samples are too few for two modes")
     time_s = record.time_s - record.time_s[0]
-    single, other = as_pendulum(single_mode(time_s, record.value), record, pendulum)
-    double = None if modes == 1 else second_mode(single, record.value, certain=modes == MOST_MODES)
+    taken, others = decided(single_mode(time_s, record.value), record, pendulum=pendulum, modes=modes)
+    single, double = taken.single, taken.double
     if double is None or are_told_apart(double):
-        found = _identified(record, single if double is None else double)
+        found = _identified(record, taken.fit)
     elif modes is None and turns_apart(double) < _SAME_FREQUENCY_TURNS:
         found = _identified(record, single, mixture=_modes(record, double))
     else:
         raise PlantError(_not_told_apart(double, record))
-    return found if other is None else _undecided(found, single, other)
+    if not others:
+        return found
+    kinds = {each.fit.model.waveform is None for each in (taken, *others)}
+    return _covering_all(found, [_modes(record, other.fit) for other in others], decided=len(kinds) == 1)
 
 
 def _not_told_apart(double: Fit, record: SwingRecord) -> str:
@@ -169,13 +173,19 @@ def _identified(
     return IdentifiedSwing(record, bounded, by_amplitude, noise_near(bounded, swinging[0]), not mixture)
 
 
-def _undecided(found: IdentifiedSwing, taken: Fit, other: Fit) -> IdentifiedSwing:
-    """Widen the uncertainty of the first mode until it covers what another model says as well."""
-    first, second = (_modes(found.record, each)[0] for each in (taken, other))
-    mode = found.modes[0]
-    ratio = (first.damping_ratio or 0.0) - (second.damping_ratio or 0.0)
-    mode = _with_spread(mode, _OTHER_MODEL * (first.frequency_hz - second.frequency_hz), _OTHER_MODEL * ratio)
-    return replace(found, modes=(mode, *found.modes[1:]), is_decided=False)
+def _covering_all(
+    found: IdentifiedSwing, others: list[tuple[IdentifiedMode, ...]], *, decided: bool
+) -> IdentifiedSwing:
+    """Widen the uncertainty of each mode until it covers what other models say as well."""
+    return replace(found, modes=tuple(_covering(mode, others) for mode in found.modes), is_decided=decided)
+
+
+def _covering(mode: IdentifiedMode, others: list[tuple[IdentifiedMode, ...]]) -> IdentifiedMode:
+    """Cover the nearest mode of each of the other models."""
+    near = [min(modes, key=lambda each: abs(each.frequency_hz - mode.frequency_hz)) for modes in others]
+    away_hz = max(abs(other.frequency_hz - mode.frequency_hz) for other in near)
+    ratio = max(abs((other.damping_ratio or 0.0) - (mode.damping_ratio or 0.0)) for other in near)
+    return _with_spread(mode, _OTHER_MODEL * away_hz, _OTHER_MODEL * ratio)
 
 
 def _no_swing(mode: IdentifiedMode, record: SwingRecord) -> str:

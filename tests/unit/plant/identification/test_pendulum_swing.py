@@ -54,6 +54,21 @@ def test_what_the_record_leaves_open_is_covered(is_pendulum):
     assert found.modes[0].band().contains(FREQUENCY_HZ)
 
 
+@pytest.mark.parametrize("is_pendulum", [False, True])
+@pytest.mark.parametrize(("apart_hz", "second"), [(1 / 60, 0.5), (1 / 30, 0.5), (1 / 3, 0.2)])
+def test_a_second_mode_does_not_hide_what_the_first_one_is(is_pendulum, apart_hz, second):
+    time_s = np.arange(0.0, 60.0, 0.05)
+    large = Truth(0.4, 0.005, 0.15)
+    swing = pendulum_swing(time_s, 0.4, 0.005, 0.15) if is_pendulum else large.swing(time_s)
+    small = Truth(0.4 + apart_hz, 0.005, 0.15 * second).swing(time_s)
+    noise = 3e-4 * np.random.default_rng(98).normal(size=time_s.size)
+    found = identify_swing(SwingRecord(time_s, swing + small + noise, Quantity.angle))
+    mode = min(found.modes, key=lambda each: abs(each.frequency_hz - 0.4))
+    # Taken for the other one it would be off by 24 of the stated deviations at least.
+    assert abs(mode.frequency_hz - 0.4) < 3.0 * mode.frequency_hz_std
+    assert found.is_decided is False or (found.slowed_ratio > 0.0) == is_pendulum
+
+
 def test_fast_angles_are_those_of_arms():
     time_s = np.linspace(0.0, 10.0, 2001)
     value = Truth(4.0, 0.0, 0.5).swing(time_s) + 0.05 * np.random.default_rng(0).normal(size=2001)
