@@ -28,6 +28,9 @@ from swayless.machine.writing import write_text_atomically
 from swayless.plant import Band, pendulum_rope_length_m
 
 _DIGITS = 6
+_LAST_DIGIT = 10.0 ** (1 - _DIGITS)
+"""The largest that a last digit can be, relative to the number."""
+
 _TICKS_PER_PERIOD = 50
 
 _ONE_ROPE = 0.1
@@ -215,7 +218,8 @@ def new_machine_text(name: str, plant: IdentifiedPlant) -> str:
     symbol = name.lower().replace("-", "_")
     symbol = "machine" if name_problem(symbol) else symbol
     ranges = [_range_text("frequency", 0.0, band) for band in plant.bands]
-    held = f"frequency = {ranges[0]}" if len(ranges) == 1 else f"bands = [{', '.join(ranges)}]"
+    rows = [_range_text("frequency", 0.0, _wider(band)) for band in plant.bands]
+    held = f"frequency = {rows[0]}" if len(rows) == 1 else f"bands = [{', '.join(rows)}]"
     damping = [min(LARGEST_DAMPING_RATIO, ratio) for ratio in plant.damping_range]
     return "\n".join(
         [
@@ -241,6 +245,11 @@ def new_machine_text(name: str, plant: IdentifiedPlant) -> str:
             "",
         ]
     )
+
+
+def _wider(band: Band) -> Band:
+    """Widen a band by a last digit or more, so that no rounding of a design leaves the plant's edge out."""
+    return Band(band.low_hz * (1.0 - _LAST_DIGIT), band.high_hz * (1.0 + _LAST_DIGIT))
 
 
 def _damping_text(ratios: Sequence[float]) -> str:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import tomllib
 from dataclasses import replace
 
 import pytest
@@ -106,6 +107,16 @@ def test_a_new_file_is_a_machine_that_holds_the_bands(tmp_path, bands):
     for held, band in zip(row.bands, bands, strict=True):
         assert holds((held.low_hz, held.high_hz), band)
     assert row.damping_ratios == (0.003, 0.005)
+
+
+@pytest.mark.parametrize("low_hz", [0.100001, 0.270271, 0.999999])
+def test_the_row_of_a_new_file_is_wider_than_its_plant_by_a_digit(low_hz):
+    band = Band(low_hz, 1.0005 * low_hz)
+    document = tomllib.loads(new_machine_text("yard", IdentifiedPlant("crane", (band,), 0.0, (0.0, 0.0))))
+    plant, row = document["crane"]["frequency"], document["row"][0]["frequency"]
+    # A last digit of six is at most 1e-5 of the number, and outward rounding adds another.
+    assert plant[0] * (1.0 - 3e-5) < row[0] < plant[0] * (1.0 - 5e-7)
+    assert plant[1] * (1.0 + 5e-7) < row[1] < plant[1] * (1.0 + 3e-5)
 
 
 @pytest.mark.parametrize(("high_hz", "tick"), [(0.2, "10 ms"), (4.5, "2 ms"), (20.0, "1 ms")])
