@@ -14,6 +14,7 @@ applications", *Inverse Problems* 19 (2003), R1-R26, section 3; the Jacobian aft
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -146,6 +147,22 @@ def fit(model: SwingModel, value: FloatArray, start: FloatArray, *, held: tuple[
         if done:
             break
     return Fit(model, state.parameters, state.residual, state.normal)
+
+
+def best_fit(model: SwingModel, value: FloatArray, starts: Sequence[FloatArray]) -> Fit | None:
+    """Fit from each of several starts and give the best; of many samples some say which one that is.
+
+    Parameters
+    ----------
+    model, value
+        As for `fit`.
+    starts : sequence of ndarray
+        None is found from none.
+    """
+    part, chosen = _part(model) if value.size > _MANY and len(starts) > 1 else (model, slice(None))
+    fits = [fit(part, value[chosen], start) for start in starts]
+    best = min(fits, key=lambda each: each.squares, default=None)
+    return best if best is None or part is model else fit(model, value, best.parameters)
 
 
 def _part(model: SwingModel) -> tuple[SwingModel, NDArray[np.int64]]:

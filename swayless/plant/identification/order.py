@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from swayless.errors import PlantError
-from swayless.plant.identification.fitting import Fit, fit, with_drift, with_parameters
+from swayless.plant.identification.fitting import Fit, best_fit, fit, with_drift, with_parameters
 from swayless.plant.identification.noise import noise_near
 from swayless.plant.identification.record import FloatArray
 from swayless.plant.identification.start import starts
@@ -79,8 +79,7 @@ def single_mode(time_s: FloatArray, value: FloatArray) -> Fit:
 def _best(model: SwingModel, value: FloatArray, level: FloatArray) -> Fit | None:
     found = starts(model.time_s, level, _STARTS)
     worth = [start for start in found if start.energy >= _WORTH_A_FIT * found[0].energy]
-    fits = [fit(model, value, with_parameters(model, start[:2])) for start in worth]
-    return min(fits, key=lambda each: each.squares, default=None)
+    return best_fit(model, value, [with_parameters(model, start[:2]) for start in worth])
 
 
 def _frequencies(fit_: Fit) -> float:
@@ -143,14 +142,13 @@ def second_mode(single: Fit, value: FloatArray, *, certain: bool = False) -> Fit
     model = replace(single.model, modes=2)
     if value.size <= model.parameter_count + 2 or not (certain or _leaves_a_rest(single, value)):
         return None
-    fits = [
-        fit(model, value, np.concatenate([single.mode(0), [*start, 0.0, 0.0], single.parameters[PER_MODE:]]))
+    first, drift = single.mode(0), single.parameters[PER_MODE:]
+    starts_ = [
+        np.concatenate([first, [*start, 0.0, 0.0], drift])
         for start in _second_starts(single, certain=certain)
     ]
-    if not fits:
-        return None
-    best = min(fits, key=lambda each: each.squares)
-    if certain:
+    best = best_fit(model, value, starts_)
+    if best is None or certain:
         return best
     noise = noise_near(best, 1)
     excess = (noise.local_rms / noise.rms) ** 2
