@@ -254,14 +254,18 @@ class CModel:
         """Ticks of the example's jog: until the reference has arrived at the command."""
         limits = self.settings.limits
         ramp_ticks = int(limits.max_command / limits.acceleration_step) + 1
-        return ramp_ticks + self.settings.longest_delay_ticks
+        return ramp_ticks + self.settings.longest_delay_ticks + (1 if self._example_waits else 0)
+
+    @property
+    def _example_waits(self) -> bool:
+        """Whether a command counts only after it has been 0."""
+        return self.features.starts_from_zero or self.features.has_feedback
 
     @property
     def example_pressed(self) -> str:
         """When the example presses; where a command counts only after a 0, not in the first tick."""
-        waits = self.features.starts_from_zero or self.features.has_feedback
         press = f"(tick < {self.example_press_ticks}u)"
-        return f"((tick > 0u) && {press})" if waits else press
+        return f"((tick > 0u) && {press})" if self._example_waits else press
 
     @property
     def example_ticks(self) -> int:

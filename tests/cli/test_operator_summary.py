@@ -182,6 +182,9 @@ def test_functions_that_nobody_touches_leave_a_simulated_move_as_it_is(first, tm
         block(tmp_path, CRANE.replace("EXTRA", extra).replace("FAMILY", "zvd"), "double")
         for extra in (FUNCTIONS, "[drive]\ncounts_per_m_s = 777777\n")
     )
-    runs = [shaped_reference(each, 1, Press(first, first + 500), 0.4, (None, 6.0)) for each in (full, plain)]
+    runs = [
+        shaped_reference(each, 1, Press(first, first + 500), 0.4, (None, 6.0)).reference_m_s
+        for each in (full, plain)
+    ]
     np.testing.assert_array_equal(*runs)
     assert (runs[0][first], runs[0].max()) == (pytest.approx(0.002, rel=0.02), pytest.approx(0.4))

@@ -50,7 +50,7 @@ def test_a_change_by_hand_in_c_is_found_and_said(run, built):
 
 
 def test_a_change_by_hand_in_structured_text_is_found_and_said(run, built):
-    change(built / "st" / "FB_zv_Shaper.st", "Reference := Ramped;", "Reference := 0.5 * Ramped;")
+    change(built / "st" / "FB_zv_Shaper.st", "ReferenceNow := Ramped;", "ReferenceNow := 0.5 * Ramped;")
     done = verify(run, built)
     assert done.code == 1
     assert "DIFFERS: ST by evaluator, LREAL: 6 of 6 runs; first: steps, tick" in done.out

@@ -20,6 +20,7 @@ from swayless.machine.designing import design_machine
 from swayless.machine.machine_file import load_axes
 from swayless.machine.running import shaper_settings
 from swayless.verify import COMPILERS, find_compiler, verify_block
+from swayless.verify.operator_stimulus import habits
 
 EXAMPLES = sorted(
     path
@@ -115,6 +116,8 @@ def test_generated_code_equals_the_reference(designs, name, number):
         )
     )
     made = 7 + (0 if settings.rope is None else 6) + settings.is_spaced
+    of_operator = habits(settings)
+    made += len(of_operator) + (1 if of_operator else 0)
     assert len(verdicts) == made * (1 + len(st_files))
     assert [v for v in verdicts if not v.comparison.is_equal] == []
 

@@ -20,7 +20,7 @@ def text_of(settings):
 
 def test_head_of_an_arm_names_what_shakes_an_arm():
     assert "slack rope" in text_of(block(ZVD))
-    text = generate(arm("modified", "double"), replace(ORIGIN, hangs_on_rope=False), "st")[0].text
+    text = generate(arm("modified", "double"), replace(ORIGIN, is_arm=True), "st")[0].text
     assert "Wind, pushes and a load that slips are beyond" in text
 
 

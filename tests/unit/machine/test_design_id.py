@@ -7,7 +7,7 @@ from pathlib import Path
 from swayless.machine.design_file import load_design, save_text
 from swayless.machine.design_id import design_id
 
-STORED = sorted((Path(__file__).parents[2] / "golden").rglob("*.json"))
+STORED = sorted((Path(__file__).parents[2] / "golden").rglob("*.design.json"))
 
 
 def test_the_identifier_is_what_a_crc_tool_says_of_the_saved_file(tmp_path):

@@ -26,8 +26,8 @@ int main(void)
     input.distance_valid = true;
     input.drive_ready = true;
     input.speed_limit = 1.0;
-    for (tick = 0u; tick < 2300u; ++tick) {
-        input.command = ((tick > 0u) && (tick < 900u)) ? 1.0 : 0.0;
+    for (tick = 0u; tick < 2301u; ++tick) {
+        input.command = ((tick > 0u) && (tick < 901u)) ? 1.0 : 0.0;
         two_axis_crane_bridge_shaper_step(&shaper, &input, &output);
         (void)printf("%lu %.9g %.9g %.9g\n", tick, input.command, output.reference,
             output.stop_distance);

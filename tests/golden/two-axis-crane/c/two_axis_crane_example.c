@@ -134,9 +134,9 @@ int main(void)
     pendant.bridge_speed_limit = 1.0;
     pendant.trolley_drive_ready = true;
     pendant.trolley_speed_limit = 0.5;
-    for (tick = 0u; tick < 2300u; ++tick) {
-        pendant.bridge_command = ((tick > 0u) && (tick < 900u)) ? 1.0 : 0.0;
-        pendant.trolley_command = ((tick > 0u) && (tick < 667u)) ? 0.5 : 0.0;
+    for (tick = 0u; tick < 2301u; ++tick) {
+        pendant.bridge_command = ((tick > 0u) && (tick < 901u)) ? 1.0 : 0.0;
+        pendant.trolley_command = ((tick > 0u) && (tick < 668u)) ? 0.5 : 0.0;
         two_axis_crane_step(&axes, &pendant, &drives);
         (void)printf("%lu %.9g %.9g\n", tick, drives.bridge.reference, drives.trolley.reference);
     }

@@ -23,8 +23,8 @@ int main(void)
     input.step_size = 1u;
     input.drive_ready = true;
     input.speed_limit = 0.5;
-    for (tick = 0u; tick < 1834u; ++tick) {
-        input.command = ((tick > 0u) && (tick < 667u)) ? 0.5 : 0.0;
+    for (tick = 0u; tick < 1835u; ++tick) {
+        input.command = ((tick > 0u) && (tick < 668u)) ? 0.5 : 0.0;
         two_axis_crane_trolley_shaper_step(&shaper, &input, &output);
         (void)printf("%lu %.9g %.9g %.9g\n", tick, input.command, output.reference,
             output.stop_distance);
