@@ -19,7 +19,7 @@ from swayless.machine import load_machine
 from swayless.machine.designing import design_machine
 from swayless.machine.machine_file import load_axes
 from swayless.machine.running import shaper_settings
-from swayless.verify import COMPILERS, find_compiler, verify_block
+from swayless.verify import COMPILERS, find_compiler, verification, verify_block
 from swayless.verify.operator_stimulus import habits
 
 EXAMPLES = sorted(
@@ -100,9 +100,11 @@ CASES = [
 
 
 @pytest.mark.parametrize(("name", "number"), CASES)
-def test_generated_code_equals_the_reference(designs, name, number):
+def test_generated_code_equals_the_reference(designs, name, number, monkeypatch):
     design = designs[name]
     settings = shaper_settings(design, number=number)
+    if habits(settings):  # many stimuli more; test_operator_functions runs each function for longer
+        monkeypatch.setattr(verification, "STIMULUS_TICKS", 4_000)
     origin = provenance(design)
     st_files = generate(settings, origin, "st") if number in TARGETS["st"].number_types else ()
     verdicts = list(
