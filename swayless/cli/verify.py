@@ -63,7 +63,11 @@ def verify(
             return
         blocks, wired = _stored(path)
         files = blocks[0][2]
-        missing = {name: f"not verified, there is none in {path / name}" for name in files if not files[name]}
+        missing = {
+            name: f"not verified, there is none in {path / name}"
+            for name in files
+            if not all(made[name] for _, _, made in blocks)
+        }
         missing |= left_out(blocks[0][1])
     else:
         design = load_design(path)

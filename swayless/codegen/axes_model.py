@@ -13,7 +13,7 @@ from swayless.codegen.c_model import CModel
 from swayless.codegen.c_types import CTypes
 from swayless.codegen.interface import input_pins, output_pins
 from swayless.codegen.names import check_st_names
-from swayless.codegen.pin import Pin
+from swayless.codegen.pin import Pin, st_name
 from swayless.codegen.provenance import Provenance
 from swayless.codegen.render import GeneratedFile, render
 from swayless.codegen.st_types import StTypes
@@ -51,14 +51,8 @@ class AxisBlock:
 
     @property
     def st_axis(self) -> str:
-        """Name of the axis as Structured Text writes names.
-
-        Examples
-        --------
-        >>> "".join(word.capitalize() for word in "cross_travel".split("_"))
-        'CrossTravel'
-        """
-        return "".join(word.capitalize() for word in self.axis.split("_"))
+        """Name of the axis as Structured Text writes names."""
+        return st_name(self.axis)
 
     @cached_property
     def own_pins(self) -> tuple[Pin, ...]:

@@ -53,7 +53,7 @@ def pin(field: str, kind: str, doc: str, *, st_initial: str = "") -> Pin:
     >>> pin("slow_forward", "bool", "switch").st_name
     'SlowForward'
     """
-    return Pin(field, field, _st_name(field), kind, doc, st_initial=st_initial)
+    return Pin(field, field, st_name(field), kind, doc, st_initial=st_initial)
 
 
 def length_pin(field: str, doc: str, *, is_integer: bool, st_initial: str = "") -> Pin:
@@ -65,8 +65,15 @@ def length_pin(field: str, doc: str, *, is_integer: bool, st_initial: str = "") 
     'distance_forward_mm'
     """
     c_name = f"{field}_mm" if is_integer else f"{field}_m"
-    return Pin(field, c_name, _st_name(field), "real", doc, "m", "mm", st_initial)
+    return Pin(field, c_name, st_name(field), "real", doc, "m", "mm", st_initial)
 
 
-def _st_name(field: str) -> str:
+def st_name(field: str) -> str:
+    """Write a name as Structured Text does.
+
+    Examples
+    --------
+    >>> st_name("cross_travel")
+    'CrossTravel'
+    """
     return "".join(word.capitalize() for word in field.split("_"))
