@@ -1,4 +1,4 @@
-"""`swayless init`: a commented machine file to start from."""
+"""`swayless init`: a commented file to start from."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swayless.cli.options import JsonOption
 
 
 class Example(StrEnum):
-    """The machine files that ship with swayless."""
+    """The files that ship with swayless."""
 
     srtc_gantry = "srtc-gantry"
     workshop_crane = "workshop-crane"
@@ -20,7 +20,10 @@ class Example(StrEnum):
     srtc_gantry_bank = "srtc-gantry-bank"
     double_pendulum = "double-pendulum"
     hoisting_gantry = "hoisting-gantry"
+    elbow_arm = "elbow-arm"
     two_axis_crane = "two-axis-crane"
+    adaptive_robot = "adaptive-robot"
+    time_optimal_oscillator = "time-optimal-oscillator"
 
 
 def init(
@@ -30,7 +33,7 @@ def init(
     ] = None,
     example: Annotated[
         Example,
-        typer.Option("--example", metavar="NAME", help=f"Which machine to start from: {', '.join(Example)}."),
+        typer.Option("--example", metavar="NAME", help=f"Where to start from: {', '.join(Example)}."),
     ] = Example.srtc_gantry,
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     json: JsonOption = False,
@@ -39,7 +42,8 @@ def init(
 
     The examples: a 15-ton gantry crane (double, for C and Structured Text), a workshop crane with a joystick
     (float), a flexible arm (int32, for C only), the gantry crane with a bank that covers all its ropes, a
-    crane whose load hangs on a sling below the hook, one that hoists while it travels, and one with two axes.
+    crane whose load hangs on a sling below the hook, one that hoists while it travels, an arm whose elbow
+    turns, a crane with two axes; a robot that learns its vibration; and a move computed ahead.
 
     Examples
     --------

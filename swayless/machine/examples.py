@@ -1,4 +1,4 @@
-"""The machine files that ship with swayless: a commented start for a user, and examples that tests run.
+"""The files that ship with swayless: a commented start for a user, and examples that tests run.
 
 There is one copy of each, in the folder ``examples`` at the top of the source tree, where people look for it.
 A wheel carries that folder inside this package.
@@ -8,22 +8,35 @@ Not for: the user's own files.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
+from typing import Literal, TypeAlias
 
 from swayless.errors import FileError
 from swayless.machine.problems import nearest
 
-EXAMPLE_NAMES = (
-    "srtc-gantry",
-    "workshop-crane",
-    "flexible-arm",
-    "srtc-gantry-bank",
-    "double-pendulum",
-    "hoisting-gantry",
-    "elbow-arm",
-    "two-axis-crane",
+ExampleKind: TypeAlias = Literal["machine", "adaptive", "move"]
+"""What an example describes: a machine, an adaptive shaper, or a move computed ahead."""
+
+EXAMPLES: Mapping[str, ExampleKind] = MappingProxyType(
+    {
+        "srtc-gantry": "machine",
+        "workshop-crane": "machine",
+        "flexible-arm": "machine",
+        "srtc-gantry-bank": "machine",
+        "double-pendulum": "machine",
+        "hoisting-gantry": "machine",
+        "elbow-arm": "machine",
+        "two-axis-crane": "machine",
+        "adaptive-robot": "adaptive",
+        "time-optimal-oscillator": "move",
+    }
 )
-"""Names of the examples, in the order in which to read them."""
+"""Names of the examples, in the order in which to read them, and what each one describes."""
+
+EXAMPLE_NAMES = tuple(name for name, kind in EXAMPLES.items() if kind == "machine")
+"""Names of those that describe a machine."""
 
 _HERE = Path(__file__).parent
 _IN_WHEEL = _HERE / "examples"
@@ -31,12 +44,12 @@ _IN_CHECKOUT = _HERE.parents[1] / "examples"
 
 
 def example_text(name: str) -> str:
-    """Give the text of an example machine file.
+    """Give the text of an example.
 
     Parameters
     ----------
     name : str
-        One of `EXAMPLE_NAMES`.
+        One of `EXAMPLES`.
 
     Raises
     ------
@@ -48,7 +61,7 @@ def example_text(name: str) -> str:
     >>> 'name = "srtc_gantry"' in example_text("srtc-gantry")
     True
     """
-    if name not in EXAMPLE_NAMES:
-        raise FileError([f"example {name!r}: unknown; {nearest(name, EXAMPLE_NAMES)}"])
+    if name not in EXAMPLES:
+        raise FileError([f"example {name!r}: unknown; {nearest(name, tuple(EXAMPLES))}"])
     folder = _IN_WHEEL if _IN_WHEEL.is_dir() else _IN_CHECKOUT
     return (folder / f"{name}.toml").read_text(encoding="utf-8")

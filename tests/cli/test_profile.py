@@ -18,7 +18,7 @@ from swayless.machine import example_text
 from swayless.machine.profile_file import load_profile
 
 ROOT = Path(__file__).parents[2]
-EXAMPLE = ROOT / "examples" / "profiles" / "time-optimal-oscillator.toml"
+EXAMPLE = ROOT / "examples" / "time-optimal-oscillator.toml"
 PAGE = (ROOT / "docs" / "profile.md").read_text(encoding="utf-8")
 OSCILLATOR = (
     "--numerator",

@@ -20,7 +20,7 @@ from swayless.design.optimal.robustification import rest_conditions
 from swayless.machine.profile_file import load_profile
 
 PAGE = Path(__file__).parents[2] / "docs" / "papers" / "xu-meckl-2005.md"
-EXAMPLE = Path(__file__).parents[2] / "examples" / "profiles" / "time-optimal-oscillator.toml"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "time-optimal-oscillator.toml"
 POLE = 10j
 U_SS = 1.0
 

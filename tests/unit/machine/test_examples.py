@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from swayless.cli.init import Example
 from swayless.errors import FileError
 from swayless.machine import (
     EXAMPLE_NAMES,
@@ -13,16 +14,30 @@ from swayless.machine import (
     load_design,
     save_text,
 )
+from swayless.machine.adaptive_file import load_adaptive
 from swayless.machine.designing import design_machine
+from swayless.machine.examples import EXAMPLES
 from swayless.machine.machine_file import load_axes
+from swayless.machine.profile_file import load_profile
 
 FOLDER = Path(__file__).parents[3] / "examples"
 
 
 def test_examples_are_the_files_of_the_source_tree() -> None:
-    assert sorted(path.stem for path in FOLDER.glob("*.toml")) == sorted([*EXAMPLE_NAMES, "adaptive-robot"])
-    for name in EXAMPLE_NAMES:
+    assert sorted(path.stem for path in FOLDER.rglob("*.toml")) == sorted(EXAMPLES)
+    for name in EXAMPLES:
         assert example_text(name) == (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def test_init_writes_every_example_there_is() -> None:
+    assert [example.value for example in Example] == list(EXAMPLES)
+
+
+def test_each_example_is_read_as_what_it_describes() -> None:
+    read = {"adaptive": load_adaptive, "move": lambda path: load_profile(path, {})}
+    for name, kind in EXAMPLES.items():
+        if kind in read:
+            assert read[kind](FOLDER / f"{name}.toml").name == name.replace("-", "_")
 
 
 def test_in_a_wheel_the_folder_inside_the_package_is_read(
