@@ -87,29 +87,36 @@ def build(
     swayless build crane.toml
     swayless build crane.toml -o out/crane --check
     """
-    from swayless.cli.adaptive import build_adaptive
+    from swayless.cli.block_build import build_block, drawn, report_check
+    from swayless.cli.block_kinds import described_block
     from swayless.cli.console import failure_in_json, progress
     from swayless.cli.output_directory import check_directory, write_files
     from swayless.cli.verify import all_equal
-    from swayless.machine.adaptive_file import is_adaptive
     from swayless.machine.machine_file import load_axes
 
     directory = output or Path(machine.stem)
-    if is_adaptive(machine):
-        prove = not no_verify
-        build_adaptive(machine, directory, check=check, prove=prove, compiler=compiler, json=json)
+    if (make := described_block(machine)) is not None:
+        build_block(
+            make,
+            directory,
+            check=check,
+            prove=not no_verify,
+            compiler=compiler,
+            soak_ticks=soak_ticks,
+            json=json,
+        )
         return
     described = load_axes(machine)
     with progress() as show, failure_in_json(wanted=json):
         products = _products(described, directory, show)
         if check:
-            _check(directory, products, json=json)
+            report_check(directory, products.files, products.figures, json=json)
             return
         check_directory(directory, products.paths)
         verdicts = [] if no_verify else _proof(products, compiler, soak_ticks, show)
         if all_equal(verdicts):
             show("drawing figures")
-            write_files(directory, products.files | _drawn(products.figures))
+            write_files(directory, products.files | drawn(products.figures))
     _report(products, directory, verdicts, json=json)
     if not all_equal(verdicts):
         raise typer.Exit(1)
@@ -173,12 +180,6 @@ def _figures(design: DesignFile, axis: str) -> dict[str, Callable[[], Figure]]:
     return figures
 
 
-def _drawn(figures: dict[str, Callable[[], Figure]]) -> dict[str, bytes]:
-    from swayless.report import figure_bytes
-
-    return {path: figure_bytes(draw(), "svg") for path, draw in figures.items()}
-
-
 def _proof(
     products: Products, compiler: str | None, soak_ticks: int, show: Callable[[str], None]
 ) -> list[Verdict]:
@@ -204,22 +205,6 @@ def _proof(
         return verdicts + wiring_verdicts(blocks, products.wiring, compiler=compiler, show=show)
     except ToolMissingError as error:
         raise ToolMissingError(f"{error}; --no-verify builds without the proof") from error
-
-
-def _check(directory: Path, products: Products, *, json: bool) -> None:
-    from swayless.cli.console import counted, print_json
-    from swayless.cli.output_directory import differences
-
-    found = differences(directory, products.files, present=products.figures)
-    if json:
-        document = {"directory": str(directory), "checked": True, "files": products.paths}
-        print_json(document | {"differences": found})
-    else:
-        files, figures = counted(len(products.files), "file"), counted(len(products.figures), "figure")
-        for line in found or [f"{directory}: {files} as generated, {figures} there"]:
-            typer.echo(line)
-    if found:
-        raise typer.Exit(1)
 
 
 def _report(products: Products, directory: Path, verdicts: Sequence[Verdict], *, json: bool) -> None:

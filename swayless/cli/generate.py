@@ -11,7 +11,7 @@ import typer
 from swayless.cli.options import CheckOption, DesignArgument, JsonOption, NumberOption
 
 if TYPE_CHECKING:
-    from swayless.codegen import Provenance
+    from swayless.codegen import GeneratedFile, Provenance
     from swayless.controller import ShaperSettings
     from swayless.machine import DesignFile
 
@@ -48,15 +48,16 @@ def generate(
     swayless generate c crane.json -o src/crane --number float
     swayless generate c crane.json -o src/crane --number float --check
     """
+    from swayless.cli.block_build import refuse_number
+    from swayless.cli.block_kinds import stored_block
     from swayless.cli.console import print_json
     from swayless.cli.output_directory import differences, write_files
-    from swayless.codegen import generate as generate_files
-    from swayless.machine import load_design
-    from swayless.machine.running import shaper_settings
 
-    design = load_design(file)
-    settings = shaper_settings(design, number=number and number.value)
-    made = generate_files(settings, provenance(design), target.value)
+    if (make := stored_block(file)) is not None:
+        refuse_number(file, number)
+        made = make(lambda _: None).generate(target.value)
+    else:
+        made = _of_design(file, number and number.value, target.value)
     files = {item.path: item.text.encode("ascii") for item in made}
     found = differences(output, files) if check else []
     if not check:
@@ -68,6 +69,16 @@ def generate(
             typer.echo(line)
     if found:
         raise typer.Exit(1)
+
+
+def _of_design(path: Path, number: str | None, target: str) -> tuple[GeneratedFile, ...]:
+    """Generate the code of a command shaper."""
+    from swayless.codegen import generate as generate_files
+    from swayless.machine import load_design
+    from swayless.machine.running import shaper_settings
+
+    design = load_design(path)
+    return generate_files(shaper_settings(design, number=number), provenance(design), target)
 
 
 def provenance(design: DesignFile) -> Provenance:

@@ -47,20 +47,22 @@ def verify(
     swayless verify out/srtc-gantry
     swayless verify crane.json --number float --compiler zig
     """
-    from swayless.cli.adaptive import stored_adaptive, verify_adaptive_directory
-    from swayless.cli.console import failure_in_json, print_json, print_table, progress
+    from swayless.cli.block_build import verify_block_at
+    from swayless.cli.block_kinds import stored_block, stored_in
+    from swayless.cli.console import failure_in_json, print_json, progress
     from swayless.cli.generate import left_out
     from swayless.cli.wiring import wiring_verdicts
     from swayless.machine import load_design
     from swayless.machine.running import shaper_settings
 
     wired: CodeFiles = {}
+    if path.is_dir() and number is not None:
+        raise OptionError(["--number: files in a directory have their number type; give a design file"])
+    stored = stored_in(path) if path.is_dir() else path
+    if stored is not None and (make := stored_block(stored)) is not None:
+        verify_block_at(path, make, number=number, compiler=compiler, soak_ticks=soak_ticks, json=json)
+        return
     if path.is_dir():
-        if number is not None:
-            raise OptionError(["--number: files in a directory have their number type; give a design file"])
-        if (stored := stored_adaptive(path)) is not None:
-            verify_adaptive_directory(path, stored, compiler=compiler, json=json)
-            return
         blocks, wired = _stored(path)
         files = blocks[0][2]
         missing = {
@@ -92,13 +94,7 @@ def verify(
     if json:
         print_json(verdict_document(verdicts, missing))
     else:
-        rows = [
-            (v.code, v.stimulus, f"{v.ticks:,}", v.comparison.first_difference or "equal, bit for bit")
-            for v in verdicts
-        ]
-        print_table("generated code against its reference", ("code", "stimulus", "ticks", "outputs"), rows)
-        for line in verdict_lines(verdicts, missing):
-            typer.echo(line)
+        print_verdicts(verdicts, missing)
     if not all_equal(verdicts):
         raise typer.Exit(1)
 
@@ -171,6 +167,27 @@ def verdicts_of(
 def all_equal(verdicts: Sequence[Verdict]) -> bool:
     """Whether no run differs from its reference."""
     return all(verdict.comparison.is_equal for verdict in verdicts)
+
+
+def print_verdicts(verdicts: Sequence[Verdict], missing: dict[str, str]) -> None:
+    """Print every run, and what was found in all of them.
+
+    Parameters
+    ----------
+    verdicts : sequence of Verdict
+        Runs.
+    missing : dict
+        Why a language was left out, by target.
+    """
+    from swayless.cli.console import print_table
+
+    rows = [
+        (v.code, v.stimulus, f"{v.ticks:,}", v.comparison.first_difference or "equal, bit for bit")
+        for v in verdicts
+    ]
+    print_table("generated code against its reference", ("code", "stimulus", "ticks", "outputs"), rows)
+    for line in verdict_lines(verdicts, missing):
+        typer.echo(line)
 
 
 def verdict_lines(verdicts: Sequence[Verdict], missing: dict[str, str]) -> Iterator[str]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from swayless.cli import block_build
 from swayless.cli.app import main
 from swayless.controller import ShaperSettings
 from swayless.machine import example_text
@@ -47,8 +48,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
 @pytest.fixture
 def blank_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave the drawing out of builds: it takes most of their time, and is tested elsewhere."""
-    module = sys.modules["swayless.cli.build"]
-    monkeypatch.setattr(module, "_drawn", lambda figures: dict.fromkeys(figures, b"figure"))
+    monkeypatch.setattr(block_build, "drawn", lambda figures: dict.fromkeys(figures, b"figure"))
 
 
 def short_stimuli(settings: ShaperSettings, *, ticks: int) -> Iterator[Stimulus]:
