@@ -1,0 +1,95 @@
+"""The constants of a motion profile's plant: from tick to tick, and how it stops. Not for: making them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from swayless.design.shaper import FloatArray
+from swayless.errors import ControllerError
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileModel:
+    """A plant from tick to tick: z(k+1) = z + M z + b s, position c z + d s.
+
+    Changes are stored, and not A = I + M: they are small, and keep all their digits in float.
+
+    Parameters
+    ----------
+    change : ndarray, shape (n, n)
+        M.
+    input : ndarray, shape (n,)
+        b.
+    output : ndarray, shape (n,)
+        c.
+    feedthrough : float
+        d.
+
+    Raises
+    ------
+    ControllerError
+        If shapes do not fit.
+    """
+
+    change: FloatArray
+    input: FloatArray
+    output: FloatArray
+    feedthrough: float
+
+    def __post_init__(self) -> None:
+        for name in ("change", "input", "output"):
+            object.__setattr__(self, name, _fixed(getattr(self, name)))
+        n = self.input.size
+        if n < 1 or [self.change.shape, self.input.shape, self.output.shape] != [(n, n), (n,), (n,)]:
+            raise ControllerError(
+                f"profile: model of shapes {self.change.shape}, {self.input.shape}, {self.output.shape}:"
+                " must be (n, n), (n,) and (n,)"
+            )
+
+    @property
+    def order(self) -> int:
+        """Number of states."""
+        return self.input.size
+
+
+@dataclass(frozen=True, eq=False)
+class StopLaw:
+    """Inputs that bring the plant to rest, linear in v: the states and the last input before the abort.
+
+    Parameters
+    ----------
+    gains : ndarray, shape (m, n + 1)
+        Input of each tick of the stop: gains @ v.
+    rest : ndarray, shape (n + 1,)
+        Position of rest: rest @ v.
+
+    Raises
+    ------
+    ControllerError
+        If shapes do not fit.
+    """
+
+    gains: FloatArray
+    rest: FloatArray
+
+    def __post_init__(self) -> None:
+        for name in ("gains", "rest"):
+            object.__setattr__(self, name, _fixed(getattr(self, name)))
+        if self.gains.ndim != 2 or len(self.gains) < 1 or self.rest.shape != self.gains.shape[1:]:
+            raise ControllerError(
+                f"profile: stop of shapes {self.gains.shape} and {self.rest.shape}: must be (m, n + 1) and"
+                " (n + 1,), m >= 1"
+            )
+
+    @property
+    def ticks(self) -> int:
+        """Ticks that a stop lasts."""
+        return len(self.gains)
+
+
+def _fixed(values: FloatArray) -> FloatArray:
+    array = np.array(values, dtype=np.float64)
+    array.flags.writeable = False
+    return array
