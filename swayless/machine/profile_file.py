@@ -15,7 +15,7 @@ from swayless.design.optimal import LinearPlant, MoveTask, Robustness
 from swayless.design.optimal.robustification import LARGEST_ROBUST_ORDER, LARGEST_SPLIT_RATIO
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError, FileError
-from swayless.machine.checks import integer, machine_name, number, quantity
+from swayless.machine.checks import choice, integer, machine_name, number, quantity
 from swayless.machine.controller_section import TICK
 from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.problems import Place, Report, Table, shown
@@ -43,6 +43,8 @@ class ProfileRequest:
         Outputs to follow, at ticks 1, 2, ...
     tolerance : float or None
         How near.
+    number : {"double", "float"}
+        Number type of the block that plays it; int32 has no use for tables of fractions.
     """
 
     name: str
@@ -50,6 +52,7 @@ class ProfileRequest:
     relax_ratio: float | None = None
     wanted: FloatArray | None = None
     tolerance: float | None = None
+    number: str = "double"
 
 
 @dataclass(frozen=True)
@@ -62,6 +65,19 @@ class _Overlaid(Table):
         """Where the value of `key` stands: on the command line where the file has no such section."""
         option = f"--{key.replace('_', '-')}"
         return Place(self.report, option) if key in self.options or not self.prefix else super().place(key)
+
+
+def is_profile(path: Path) -> bool:
+    """Whether a TOML file has a section ``[plant]`` or ``[move]``; whatever else is wrong is for others."""
+    try:
+        document = tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
+    except (ValueError, RecursionError):
+        return False
+    return not _is_machine(document) and any(isinstance(document.get(key), dict) for key in ("plant", "move"))
+
+
+def _is_machine(document: Mapping[str, object]) -> bool:
+    return not {"crane", "arm", "axis"}.isdisjoint(document)
 
 
 def load_profile(
@@ -94,7 +110,7 @@ def load_profile(
     """
     report = Report("" if path is None else str(path))
     document = {} if path is None else _parse(path)
-    if path is not None and ("crane" in document or "arm" in document or "axis" in document):
+    if path is not None and _is_machine(document):
         name, plant, move = _of_machine(path, options, report, axis)
     else:
         name, plant, move = _of_profile(document, options, report)
@@ -154,6 +170,7 @@ def _read_move(
     relax = table.take("relax", number(1.0, 100.0), None)
     tolerance = table.take("tolerance", _positive, None)
     track = table.take("track", _file, None)
+    kind = table.take("number", choice("number type", ("double", "float")), "double")
     table.close()
     if "robust" in table.raw and "ei" in table.raw:
         table.place("ei").problem("poles are either repeated or split: leave robust or ei out")
@@ -170,7 +187,7 @@ def _read_move(
         task = MoveTask(plant, tick_s, limits, target, start or 0.0, rate, Robustness(order or 0, split))
     except DesignError as error:
         raise DesignError(f"{path}: {error}" if path else str(error)) from error
-    return ProfileRequest(name, task, relax, wanted, tolerance)
+    return ProfileRequest(name, task, relax, wanted, tolerance, kind or "double")
 
 
 def _limits(value: object, place: Place) -> tuple[float, float] | None:

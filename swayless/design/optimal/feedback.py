@@ -72,6 +72,7 @@ def output_with_feedback(
     """
     if plant.d != 0.0:
         raise DesignError("feedback: the input moves the output at once (d is not 0): give it a lag")
+    plant = plant.balanced
     given = np.asarray(reference, dtype=np.float64)
     wanted = np.append(given, np.full(max(0, ticks - given.size), given[-1]))[:ticks] - given[0]
     forward = np.append(command.values, np.full(max(0, ticks - command.values.size), command.final_value))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -95,9 +96,7 @@ class LinearPlant:
             )
         # In units of the poles' own speed, so that coefficients, and states, are of order 1; a power of two,
         # so that nothing is rounded.
-        roots = np.roots(bottom)
-        moving = np.abs(roots[np.abs(roots) > 0.0])
-        speed_rad_s = float(2.0 ** np.round(np.log2(moving).mean())) if moving.size else 1.0
+        speed_rad_s = _speed_rad_s(np.roots(bottom))
         powers = speed_rad_s ** np.arange(bottom.size - 1, -1, -1, dtype=np.float64)
         monic = bottom * powers / (bottom[0] * powers[0])
         padded = np.concatenate([np.zeros(bottom.size - top.size), top]) * powers / (bottom[0] * powers[0])
@@ -113,10 +112,44 @@ class LinearPlant:
         """Number of states."""
         return self.b.size
 
+    @cached_property
+    def state_units(self) -> FloatArray:
+        """Units, powers of two, in which all states are of about one size, shape (n,).
+
+        References
+        ----------
+        Parlett and Reinsch (1969), "Balancing a matrix for calculation of eigenvalues and eigenvectors"; here
+        of the loop from input to output, so that states that feed no other are in it. The loop is closed with
+        the gain at which it is as fast as the poles are, so that units do not hang on those of the input.
+        """
+        from scipy.linalg import matrix_balance  # here, because it is heavy and only a design needs it
+
+        speed_rad_s = _speed_rad_s(np.linalg.eigvals(self.a))
+        answer = np.linalg.lstsq(speed_rad_s * np.eye(self.order) - self.a, self.b)[0]  # a pole may be there
+        gain = speed_rad_s / (abs(float(self.c @ answer)) or 1.0)
+        loop = np.block([[self.a, gain * self.b[:, np.newaxis]], [self.c, np.zeros(1)]])
+        _, (units, _) = matrix_balance(loop, permute=False, separate=True)
+        return np.asarray(units[:-1] / units[-1], dtype=np.float64)
+
+    @cached_property
+    def balanced(self) -> LinearPlant:
+        """The same plant with its states in `state_units`: nothing is rounded, and less is lost later.
+
+        Examples
+        --------
+        An oscillator of 1000 rad/s, whose speed is a thousand times its position:
+
+        >>> plant = LinearPlant([[0.0, 1.0], [-1e6, 0.0]], [0.0, 1e6], [1.0, 0.0])
+        >>> plant.balanced.a.round().tolist()
+        [[0.0, 1024.0], [-977.0, 0.0]]
+        """
+        units = self.state_units
+        return LinearPlant(self.a * units / units[:, np.newaxis], self.b / units, self.c * units, self.d)
+
     @property
     def poles_rad_s(self) -> ComplexArray:
         """All poles, shape (n,), the eigenvalues of A."""
-        return np.asarray(np.linalg.eigvals(self.a), dtype=np.complex128)
+        return np.asarray(np.linalg.eigvals(self.balanced.a), dtype=np.complex128)
 
     @property
     def ringing_poles_rad_s(self) -> ComplexArray:
@@ -130,7 +163,8 @@ class LinearPlant:
         """All finite zeros: where [[A - s I, B], [C, D]] loses rank."""
         from scipy.linalg import eig
 
-        pencil = np.block([[self.a, self.b[:, np.newaxis]], [self.c, np.array([self.d])]])
+        plant = self.balanced
+        pencil = np.block([[plant.a, plant.b[:, np.newaxis]], [plant.c, np.array([plant.d])]])
         top, bottom = eig(pencil, np.diag([*np.ones(self.order), 0.0]), right=False, homogeneous_eigvals=True)
         fastest = max(1e-300, float(np.abs(self.poles_rad_s).max()))
         finite = np.abs(bottom) * fastest > _LOST * np.abs(top)
@@ -144,17 +178,17 @@ class LinearPlant:
         DesignError
             If it cannot rest there: a zero at 0, or states that the input does not hold.
         """
-        held = np.column_stack([self.a, self.b])
+        plant = self.balanced
+        moving, driven = (float(np.linalg.norm(part)) or 1.0 for part in (plant.a, plant.b))
+        held = np.column_stack([plant.a / moving, plant.b / driven])
+        seen = np.append(plant.c / moving, plant.d / driven)
         _, sizes, directions = np.linalg.svd(held)
         if sizes[-1] <= _LOST * sizes[0]:
             raise DesignError("plant: a pole at 0 is not moved by the input: it is not controllable")
-        rest = directions[-1]
-        gain = float(self.c @ rest[:-1] + self.d * rest[-1])
-        if abs(gain) <= _BLOCKED * float(np.linalg.norm(np.append(self.c, self.d))):
+        if abs(seen @ directions[-1]) <= _BLOCKED * float(np.linalg.norm(seen)):
             raise DesignError("plant: a zero at 0: no input holds its output anywhere but at 0")
-        whole = np.vstack([held, np.append(self.c, self.d)])
-        rest = np.linalg.solve(whole, output * np.eye(self.order + 1)[-1]) + 0.0
-        return rest[:-1], float(rest[-1])
+        rest = np.linalg.solve(np.vstack([held, seen]), output * np.eye(self.order + 1)[-1]) + 0.0
+        return self.state_units * rest[:-1] / moving, float(rest[-1]) / driven
 
     def check(self) -> None:
         """Refuse a plant that no command computed ahead can bring to rest.
@@ -172,11 +206,23 @@ class LinearPlant:
                 f"plant: unstable, pole at {shown(unstable[0])} rad/s: a command computed ahead cannot hold"
                 " it; close a loop first and give the plant with its loop"
             )
-        lost = poles[uncontrolled(self.a, self.b, poles)]
+        lost = poles[uncontrolled(self.balanced.a, self.balanced.b, poles)]
         if lost.size:
             raise DesignError(
                 f"plant: not controllable, the input does not move the pole at {shown(lost[0])} rad/s"
             )
+
+
+def mode_vectors(plant: LinearPlant, pole: complex) -> tuple[ComplexArray, ComplexArray]:
+    """Give the right and the left eigenvector of one pole, w v = 1.
+
+    Each from its own side: beside a double integrator the vectors of all poles are no basis.
+    """
+    (after, before) = (
+        vectors[:, np.abs(poles - pole).argmin()]
+        for poles, vectors in (np.linalg.eig(plant.a), np.linalg.eig(plant.a.T))
+    )
+    return after, before / (before @ after)
 
 
 def uncontrolled(a: FloatArray, b: FloatArray, poles: ComplexArray) -> NDArray[np.bool_]:
@@ -187,6 +233,13 @@ def uncontrolled(a: FloatArray, b: FloatArray, poles: ComplexArray) -> NDArray[n
     scale = max(float(np.linalg.norm(a, 2)), 1e-300)
     sizes = np.linalg.svd(np.concatenate([pencils / scale, inputs], axis=2), compute_uv=False)
     return np.asarray(sizes[:, -1] <= _LOST)
+
+
+def _speed_rad_s(poles: ArrayLike) -> float:
+    """Give a power of two near the mean speed, geometrically, of the poles that move; 1 if none does."""
+    speeds = np.abs(poles)
+    moving = speeds[speeds > _ON_AXIS * speeds.max()]
+    return float(2.0 ** np.round(np.log2(moving).mean())) if moving.size else 1.0
 
 
 def shown(pole: complex) -> str:

@@ -108,7 +108,7 @@ class Program:
             centres.append(ends)
             halves.append(np.full(n + 1, task.rate_limit_per_s * task.tick_s))
         if self.wanted is not None:
-            outputs = sparse.kron(sparse.eye_array(n), task.plant.c[np.newaxis])
+            outputs = sparse.kron(sparse.eye_array(n), task.plant.balanced.c[np.newaxis])
             forms.append(sparse.hstack([sparse.csr_array((n, n)), outputs]))
             centres.append(self.wanted.output)
             halves.append(np.full(n, self.wanted.within))
@@ -122,7 +122,7 @@ class Program:
         rows, values, _ = self.orthonormal
         if self.wanted is None:
             return sparse.csr_array(rows), values
-        n, plant = self.ticks, self.task.plant
+        n, plant = self.ticks, self.task.plant.balanced
         step = sampled(plant.a, plant.b, self.task.tick_s)
         later = sparse.eye_array(n, k=-1)
         states = sparse.eye_array(n * plant.order) - sparse.kron(later, step.a)

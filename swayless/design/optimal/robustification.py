@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swayless.design.optimal.linear_plant import LinearPlant, shown, uncontrolled
+from swayless.design.optimal.linear_plant import LinearPlant, mode_vectors, shown, uncontrolled
 from swayless.design.optimal.sampling import Sampled, sampled
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
@@ -119,18 +119,21 @@ def rest_conditions(
     Examples
     --------
     >>> plant = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0])
-    >>> rest_conditions(plant, 0.005, 1.0, Robustness(order=1)).final[2:].round(12).tolist()
+    >>> chain = rest_conditions(plant, 0.005, 1.0, Robustness(order=1)).final[2:]
+    >>> (chain / abs(chain).max()).round(12).tolist()
     [-1.0, 0.0]
     """
     robustness = robustness or Robustness()
+    plant = plant.balanced
     state, held = plant.equilibrium(change)
     chains = _chains(plant, robustness)
     kept: list[FloatArray] = [np.eye(plant.order) if robustness.split_ratio is None else _not_ringing(plant)]
     systems, finals = [sampled(plant.a, plant.b, tick_s)], [state]
     _check_sampled(plant, systems[0], tick_s)
     skipped = 0 if robustness.split_ratio is not None else 1
-    for pole, length in chains:
+    for mode, pole, length in chains:
         a, b = jordan_chain(pole, length)
+        b *= _participation(plant, mode)
         systems.append(sampled(a, b, tick_s))
         finals.append(np.asarray(np.linalg.solve(a, -held * b), dtype=np.float64))
         # The last link of a chain is the plant's own mode, which is kept already.
@@ -167,8 +170,14 @@ def jordan_chain(pole_rad_s: complex, length: int) -> tuple[FloatArray, FloatArr
     return a, size * np.eye(2 * length)[2 * length - 2]
 
 
-def _chains(plant: LinearPlant, robustness: Robustness) -> list[tuple[complex, int]]:
-    """Give pole and length of each chain that robustness adds."""
+def _participation(plant: LinearPlant, pole: complex) -> float:
+    """How large a pole's part of the states is under an input of 1: chains in this unit are as large."""
+    _, before = mode_vectors(plant, pole)
+    return float(abs(before @ plant.b) / abs(pole))
+
+
+def _chains(plant: LinearPlant, robustness: Robustness) -> list[tuple[complex, complex, int]]:
+    """Give the plant's pole, and pole and length, of each chain that robustness adds."""
     if not robustness.asked:
         return []
     poles = plant.ringing_poles_rad_s
@@ -182,8 +191,9 @@ def _chains(plant: LinearPlant, robustness: Robustness) -> list[tuple[complex, i
         )
     split = robustness.split_ratio
     if split is None:
-        return [(complex(pole), robustness.order + 1) for pole in poles]
-    return [(complex(pole) * factor, 1) for pole in poles for factor in (1.0 - split, 1.0 + split)]
+        return [(complex(pole), complex(pole), robustness.order + 1) for pole in poles]
+    factors = (1.0 - split, 1.0 + split)
+    return [(complex(pole), complex(pole) * factor, 1) for pole in poles for factor in factors]
 
 
 def _not_ringing(plant: LinearPlant) -> FloatArray:

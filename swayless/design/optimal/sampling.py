@@ -107,6 +107,7 @@ def output_at_ticks(
 
 def impulse_response(plant: LinearPlant, tick_s: float, ticks: int) -> FloatArray:
     """Give C A^(k-1) B for k = 1 .. `ticks`: what a unit input during one tick leaves k ticks later."""
+    plant = plant.balanced
     reach = sampled(plant.a, plant.b, tick_s).reach(max(ticks, 1))[:, ::-1]
     return np.asarray(plant.c @ reach)[:ticks]
 

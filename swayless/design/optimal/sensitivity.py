@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swayless.design.optimal.command import Command
-from swayless.design.optimal.linear_plant import ComplexArray, LinearPlant
+from swayless.design.optimal.linear_plant import ComplexArray, LinearPlant, mode_vectors
 from swayless.design.residual import residual_vibration
 from swayless.design.shaper import FloatArray
 from swayless.plant import Mode
@@ -72,16 +72,15 @@ def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike)
     >>> swing_left(plant, Command(np.pi / 10.0, [0.5], 1.0), [1.0, 1.2]).round(4)
     array([[0.   , 0.309]])
     """
-    # Vectors from either side, each pole by itself: beside a double integrator the vectors are no basis.
-    sides = np.linalg.eig(plant.a), np.linalg.eig(plant.a.T)
+    plant = plant.balanced
     rows = []
     for pole in plant.ringing_poles_rad_s:
         actual = pole * np.asarray(frequency_ratio, dtype=np.float64)
         increments = command.increments
         since_s = command.duration_s - increments.times_s
         swings = np.exp(actual[:, np.newaxis] * since_s) @ increments.amplitudes
-        after, before = (vectors[:, np.abs(poles - pole).argmin()] for poles, vectors in sides)
-        residue = (plant.c @ after) * (before @ plant.b) / (before @ after)
+        after, before = mode_vectors(plant, pole)
+        residue = (plant.c @ after) * (before @ plant.b)
         rows.append(2.0 * np.abs(residue / pole) * np.abs(swings))
     return np.array(rows).reshape(len(rows), np.size(frequency_ratio))
 

@@ -5,10 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from swayless.design.optimal.moves import OptimalCommand, finished
+from swayless.design.optimal.moves import (
+    FINAL_STATE_TOLERANCE,
+    OptimalCommand,
+    final_error,
+    finished,
+    polished,
+)
 from swayless.design.optimal.program import Program, least_utilisation
 from swayless.design.optimal.task import LARGEST_TICKS, MoveTask
+from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
+
+_UNDECIDED = 1e-6  # of the limits: nearer to all of them the linear program alone does not decide
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +84,22 @@ def _try(task: MoveTask, ticks: int) -> _Tried:
     program = Program(task, ticks)
     least = least_utilisation(program)
     found = None
-    if least.utilisation_ratio <= 1.0 + 1e-6:  # what is left over, the polish and its check decide
+    if least.utilisation_ratio <= 1.0 + _UNDECIDED:  # what is left over, the polish and its check decide
         found = finished(program, least.w, least.proved_ratio)
+    if found is None and least.utilisation_ratio < 1.0 - _UNDECIDED:
+        raise DesignError(_not_resolved(program, least.w, least.utilisation_ratio))
     return _Tried(ticks, found, least.proved_ratio)
+
+
+def _not_resolved(program: Program, w: FloatArray, share: float) -> str:
+    """Say that limits leave enough room, but rounding does not reach the end."""
+    missed = final_error(program, polished(program, w))
+    return (
+        f"{program.ticks} ticks of {program.task.tick_s:g} s take {share:.4g} of the limits, but the best"
+        f" command misses rest by {missed:.1g} of the largest state, and {FINAL_STATE_TOLERANCE:g} is"
+        " promised: what is asked of the end can hardly be told apart; less robustness or a coarser tick is"
+        " needed"
+    )
 
 
 def _proved(below: _Tried) -> _Tried:

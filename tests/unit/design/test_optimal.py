@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.optimize import linprog
+from scipy.signal import tf2ss
 
 from swayless.design.optimal import (
     LinearPlant,
@@ -220,6 +221,22 @@ def test_no_prices_prove_more_than_the_optimum_whatever_limits_there_are(seed, w
         )
         assert proved <= least.utilisation_ratio * (1.0 + 1e-9)
     assert least.proved_ratio == pytest.approx(least.utilisation_ratio, rel=1e-7)
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
+def test_units_of_input_output_and_states_change_no_command(unit):
+    """A rigid body with a mode of 500 rad/s, in the textbook's canonical form: its states differ by 1e8."""
+    w = 500.0
+    transfer = [1.0], [1.0 / w**2, 0.02 / w, 1.0, 0.0, 0.0]
+    a, b, c, _ = tf2ss(*transfer)
+    plant, other = LinearPlant.from_transfer_function(*transfer), LinearPlant(a, b[:, 0] / unit, c[0])
+    options = {"tick_s": 0.2 / w, "target": 1.0, "robustness": Robustness(1)}
+    expected = time_optimal(MoveTask(plant, limits=(-2e4, 2e4), **options))
+    found = time_optimal(MoveTask(other, limits=(-2e4 * unit, 2e4 * unit), **options))
+    assert found.ticks == expected.ticks
+    assert found.command.values / unit == pytest.approx(expected.command.values, abs=1e-4)
+    # Far below what is promised: states that are measured in fitting units lose nothing.
+    assert max(found.final_error_ratio, expected.final_error_ratio) < 1e-12
 
 
 def smooth(ticks):
