@@ -1,0 +1,42 @@
+"""Variables of the motion profile in Structured Text. Not for: pins, constants and tables; C has them too."""
+
+from __future__ import annotations
+
+from swayless.codegen.st_types import Variable
+
+ST_VARIABLES = (
+    Variable("Executed", "bool", "Execute of the call before", st_reset="FALSE"),
+    Variable("Placed", "bool", "a move was accepted: Start no longer matters at rest", st_reset="FALSE"),
+    Variable("Playing", "bool", "a move or a stop plays", st_reset="FALSE"),
+    Variable("StopPlays", "bool", "a stop plays", st_reset="FALSE"),
+    Variable("HasArrived", "bool", "as the output Done", st_reset="FALSE"),
+    Variable("HasStopped", "bool", "as the output Aborted", st_reset="FALSE"),
+    Variable("Piece", "word", "of the table, that plays next", st_reset="0"),
+    Variable("PieceTick", "word", "ticks of it that have played", st_reset="0"),
+    Variable("StopTick", "word", "ticks of the stop that have played", st_reset="0"),
+    Variable("Refused", "word", "status bits of the last refusal", st_reset="0"),
+    Variable(
+        "HeldPosition", "real", "where the plant rests, or will after the stop", st_reset="FirstPosition"
+    ),
+    Variable("MoveStart", "real", "of the move that plays", st_reset="0.0"),
+    Variable("MoveTarget", "real", "of the same", st_reset="0.0"),
+    Variable("Travel", "real", "of the same", st_reset="0.0"),
+    Variable("WasPlaying", "bool", "Playing when this call began"),
+    Variable("Bits", "word", "status of this call"),
+    Variable("Rises", "bool", "Execute rises in this call"),
+    Variable("InRange", "bool", "intermediate result of one call"),
+    Variable("AtRest", "real", "reference that holds Start"),
+    Variable("Local", "real", "variable of a piece's polynomial, -1 to 1"),
+    Variable("Distance", "real", "Target less Start"),
+    Variable("Sum", "real", "sum of products, and the shape"),
+    Variable("Row", "word", "loop"),
+    Variable("Column", "word", "loop"),
+)
+"""Variables; their type is a kind of `StTypes.type_of`."""
+
+ST_ARRAYS = (
+    Variable("Plant", "real", "states of the plant in a move by 1, and the shape of the last tick"),
+    Variable("StopFrom", "real", "the same when the stop began"),
+    Variable("Results", "real", "change of each state, and the position, in this tick"),
+)
+"""Arrays, one cell longer than the plant has states."""

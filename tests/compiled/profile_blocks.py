@@ -1,0 +1,71 @@
+"""Small motion profiles of every kind of table, plants of one state to four, in both number types."""
+
+import dataclasses
+
+import numpy as np
+
+from swayless.codegen.profile_model import ProfileCode, ProfileOrigin
+from swayless.controller import number_type
+from swayless.controller.profile import (
+    Extremes,
+    Pieces,
+    ProfileModel,
+    ProfileSettings,
+    StopLaw,
+    enumerated,
+    extremes_of,
+)
+
+LAG = ProfileModel([[-0.1]], [0.1], [1.0], 0.0), StopLaw([[0.7, 0.2]], [1.0, -0.1])
+MASS = (
+    ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0),
+    StopLaw([[0.0, -0.75, 0.125], [0.0, -0.25, 0.0]], [1.0, 0.875, 0.0]),
+)
+_RANDOM = np.random.default_rng(7)
+FOUR = (
+    ProfileModel(0.1 * _RANDOM.normal(size=(4, 4)), _RANDOM.normal(size=4), _RANDOM.normal(size=4), 0.3),
+    StopLaw(0.1 * _RANDOM.normal(size=(6, 5)), 0.1 * _RANDOM.normal(size=5)),
+)
+"""Not a plant that anybody would move: only its arithmetic matters here."""
+
+PIECES = {
+    "plain": Pieces(np.ones(14, int), _RANDOM.normal(size=(14, 1))),
+    "switching": Pieces([5, 3, 1, 4], [[1.3], [-1.1], [0.7], [-0.1]]),
+    "straight": Pieces([6, 1, 5], _RANDOM.normal(size=(3, 2))),
+    "polynomial": Pieces([8, 5], _RANDOM.normal(size=(2, 5))),
+}
+BLOCKS = {
+    "plain, one state": (PIECES["plain"], LAG, 1.0, 9.0),
+    "switching, a mass": (PIECES["switching"], MASS, 0.0, 1e15),
+    "straight, one state": (PIECES["straight"], LAG, -0.7, 3.0),
+    "polynomial, four states": (PIECES["polynomial"], FOUR, 0.4, 5.0),
+}
+"""Table, plant and stop, ratio of holding, longest travel."""
+
+
+def block(name, number):
+    """Make a block; the limits allow a bit more than the design's move, by 1 from 0.5."""
+    pieces, (model, stop), hold_ratio, max_travel = BLOCKS[name]
+    kind = number_type(number)
+
+    def held(values):
+        array = np.asarray(values, dtype=float)
+        return array if number == "double" else array.astype(np.float32).astype(float)
+
+    pieces = Pieces(pieces.lengths, held(pieces.coefficients))
+    model = ProfileModel(
+        held(model.change), held(model.input), held(model.output), float(held(model.feedthrough))
+    )
+    stop = StopLaw(held(stop.gains), held(stop.rest))
+    ratio = float(held(hold_ratio))
+    extremes: Extremes = extremes_of(enumerated(pieces, model, stop, kind), ratio)
+    limits = float(held(-6.0)), float(held(7.0))
+    settings = ProfileSettings(
+        0.01, pieces, model, stop, extremes, limits, ratio, float(held(max_travel)), number=kind
+    )
+    return ProfileCode(settings, ProfileOrigin("cart", "swayless", None, ("One line of facts.",), (0.5, 1.5)))
+
+
+def with_settings(code, **changes):
+    """Change some constants of a block."""
+    return dataclasses.replace(code, settings=dataclasses.replace(code.settings, **changes))
