@@ -219,6 +219,26 @@ class ProfileCode:
         return self.settings.pieces.degree
 
     @property
+    def coefficients(self) -> int:
+        """Coefficients of each piece."""
+        return self.degree + 1
+
+    def st_cell(self, row: str, column: str) -> str:
+        """Index of a cell of a table whose rows have a column for each state and the shape.
+
+        Parameters
+        ----------
+        row : str
+            Variable that counts rows; empty where the table has only one.
+        column : str
+            Variable or number.
+        """
+        first = f"{row} * {self.columns}"
+        if not row:
+            return column
+        return first if column == "0" else f"({first}) + {column}"
+
+    @property
     def is_raw(self) -> bool:
         """Whether each tick has its own value."""
         return self.settings.pieces.is_raw

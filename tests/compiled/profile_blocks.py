@@ -8,12 +8,12 @@ from swayless.codegen.profile_model import ProfileCode, ProfileOrigin
 from swayless.controller import number_type
 from swayless.controller.profile import (
     Extremes,
+    MotionProfile,
     Pieces,
+    ProfileInput,
     ProfileModel,
     ProfileSettings,
     StopLaw,
-    enumerated,
-    extremes_of,
 )
 
 LAG = ProfileModel([[-0.1]], [0.1], [1.0], 0.0), StopLaw([[0.7, 0.2]], [1.0, -0.1])
@@ -36,7 +36,7 @@ PIECES = {
 }
 BLOCKS = {
     "plain, one state": (PIECES["plain"], LAG, 1.0, 9.0),
-    "switching, a mass": (PIECES["switching"], MASS, 0.0, 1e15),
+    "switching, a mass": (PIECES["switching"], MASS, 0.0, 2.0**49),
     "straight, one state": (PIECES["straight"], LAG, -0.7, 3.0),
     "polynomial, four states": (PIECES["polynomial"], FOUR, 0.4, 5.0),
 }
@@ -58,14 +58,27 @@ def block(name, number):
     )
     stop = StopLaw(held(stop.gains), held(stop.rest))
     ratio = float(held(hold_ratio))
-    extremes: Extremes = extremes_of(enumerated(pieces, model, stop, kind), ratio)
-    limits = float(held(-6.0)), float(held(7.0))
-    settings = ProfileSettings(
-        0.01, pieces, model, stop, extremes, limits, ratio, float(held(max_travel)), number=kind
+    loose = Extremes((-1.0, 1.0), (0.0, 1.0))
+    settings = ProfileSettings(0.01, pieces, model, stop, loose, (-64.0, 64.0), max_travel=1.0, number=kind)
+    settings = dataclasses.replace(
+        settings,
+        extremes=extremes_of(settings, ratio),
+        limits=(float(held(-6.0)), float(held(7.0))),
+        hold_ratio=ratio,
+        max_travel=float(held(max_travel)),
     )
     return ProfileCode(settings, ProfileOrigin("cart", "swayless", None, ("One line of facts.",), (0.5, 1.5)))
 
 
-def with_settings(code, **changes):
-    """Change some constants of a block."""
-    return dataclasses.replace(code, settings=dataclasses.replace(code.settings, **changes))
+def extremes_of(settings, hold_ratio):
+    """Play a move by 1 from 0, and every stop of it: without holding the reference is the shape itself."""
+    shapes, rests = [0.0, hold_ratio], [0.0]
+    for abort_at in range(1, settings.pieces.ticks + 1):
+        profile, zero, one = MotionProfile(settings), settings.number.scalar(0), settings.number.scalar(1)
+        out, tick = profile.step(ProfileInput(True, False, zero, one)), 0
+        while out.busy:
+            shapes.append(float(out.reference))
+            tick += 1
+            out = profile.step(ProfileInput(True, tick == abort_at, zero, one))
+        rests.append(float(out.position))
+    return Extremes((min(shapes), max(shapes)), (min(rests), max(rests)))
