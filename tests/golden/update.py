@@ -4,6 +4,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 GOLDEN = Path(__file__).parent
@@ -11,13 +12,20 @@ EXAMPLES = GOLDEN.parents[1] / "examples"
 NAMES = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
 
 
-def built(name: str, folder: Path, *, stored: Path | None = None) -> dict[str, bytes]:
+def run(*arguments: str) -> None:
+    """Run the program."""
+    command = [sys.executable, "-m", "swayless", *arguments]
+    subprocess.run(command, check=True, capture_output=True, cwd=EXAMPLES)
+
+
+def built(
+    name: str, folder: Path, *, stored: Path | None = None, build: Callable[..., None] = run
+) -> dict[str, bytes]:
     """Build an example into a folder, beside a stored design if there is one; everything but the figures."""
     folder.mkdir(parents=True)
     for design in stored.glob("*.design.json") if stored else ():
         shutil.copy(design, folder)
-    command = [sys.executable, "-m", "swayless", "build", f"{name}.toml", "-o", str(folder), "--no-verify"]
-    subprocess.run(command, check=True, capture_output=True, cwd=EXAMPLES)
+    build("build", f"{name}.toml", "-o", str(folder), "--no-verify")
     return files_below(folder)
 
 
