@@ -4,8 +4,9 @@ Not for: shapers, which change a command as it comes.
 """
 
 from swayless.design.optimal.command import Command
+from swayless.design.optimal.detuning import detuned
 from swayless.design.optimal.energy import least_energy, track
-from swayless.design.optimal.feedback import Feedback, output_with_feedback
+from swayless.design.optimal.feedback import Feedback, input_with_feedback, output_with_feedback
 from swayless.design.optimal.linear_plant import LinearPlant
 from swayless.design.optimal.moves import OptimalCommand
 from swayless.design.optimal.robustification import Robustness
@@ -21,6 +22,8 @@ __all__ = [
     "MoveTask",
     "OptimalCommand",
     "Robustness",
+    "detuned",
+    "input_with_feedback",
     "least_energy",
     "output_at_ticks",
     "output_with_feedback",

@@ -99,3 +99,37 @@ def output_with_feedback(
         for into, values in inputs.values()
     ]
     return np.asarray(given[0] + sum(answers))
+
+
+def input_with_feedback(
+    command: Command, reference: ArrayLike, output: ArrayLike, feedback: Feedback
+) -> FloatArray:
+    """Give what feedforward and feedback together ask of the actuator, at the ticks of an output.
+
+    Parameters
+    ----------
+    command : Command
+        Zero-order feedforward.
+    reference : array_like, shape (m,)
+        Trajectory at ticks 0, 1, ...; its last value stays.
+    output : array_like, shape (n,)
+        What `output_with_feedback` gave.
+    feedback : Feedback
+
+    Examples
+    --------
+    >>> command = Command(0.5, [2.0], 0.0)
+    >>> input_with_feedback(command, [0.0, 1.0], [0.0, 0.5, 1.0], Feedback(1.0, 0.5)).tolist()
+    [2.0, 1.0, -0.5]
+    """
+    actual = np.asarray(output, dtype=np.float64)
+    forward, wanted = (
+        np.append(values, np.full(max(0, actual.size - values.size), last))[: actual.size]
+        for values, last in (
+            (command.values, command.final_value),
+            (np.asarray(reference, dtype=np.float64), np.asarray(reference)[-1]),
+        )
+    )
+    off = wanted - actual
+    rate = np.diff(off, prepend=0.0) / command.tick_s
+    return np.asarray(forward + feedback.proportional * off + feedback.derivative_s * rate)

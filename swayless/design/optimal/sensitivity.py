@@ -50,7 +50,8 @@ def residual_amplitude(command: Command, frequency_hz: ArrayLike, damping_ratio:
 def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike) -> FloatArray:
     """Give the amplitude with which each ringing mode still moves the output when the command ends.
 
-    The mode keeps its damping ratio and what it adds to the output at rest; its frequency is off.
+    One mode at a time is off in frequency, as in `detuned`: its damping ratio, and what the plant does at
+    rest, are as before.
 
     Parameters
     ----------
@@ -72,17 +73,30 @@ def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike)
     >>> swing_left(plant, Command(np.pi / 10.0, [0.5], 1.0), [1.0, 1.2]).round(4)
     array([[0.   , 0.309]])
     """
-    plant = plant.balanced
+    plant, increments = plant.balanced, command.increments
+    ratios = np.asarray(frequency_ratio, dtype=np.float64)
+    since_s = command.duration_s - increments.times_s
     rows = []
     for pole in plant.ringing_poles_rad_s:
-        actual = pole * np.asarray(frequency_ratio, dtype=np.float64)
-        increments = command.increments
-        since_s = command.duration_s - increments.times_s
+        actual = pole * ratios
         swings = np.exp(actual[:, np.newaxis] * since_s) @ increments.amplitudes
-        after, before = mode_vectors(plant, pole)
-        residue = (plant.c @ after) * (before @ plant.b)
-        rows.append(2.0 * np.abs(residue / pole) * np.abs(swings))
-    return np.array(rows).reshape(len(rows), np.size(frequency_ratio))
+        rows.append(2.0 * np.abs(_residues(plant, complex(pole), ratios) / actual * swings))
+    return np.array(rows).reshape(len(rows), ratios.size)
+
+
+def _residues(plant: LinearPlant, pole: complex, ratios: FloatArray) -> ComplexArray:
+    """Give the residue of the detuned plant at its pole r p, shape (n,).
+
+    Moved from p to q = r p, the mode has the residue r^2 (q - p) G(q) (q - p*) / (q - q*). Of (q - p) G(q)
+    the mode's own part is its residue at p; for the rest p is taken out of A, where it would divide by 0.
+    """
+    after, before = mode_vectors(plant, pole)
+    own = np.outer(after, before)
+    actual = pole * ratios
+    others = actual[:, np.newaxis, np.newaxis] * np.eye(plant.order) - plant.a + abs(pole) * own
+    answers = np.linalg.solve(others, (plant.b - own @ plant.b)[:, np.newaxis])[..., 0]
+    near = plant.c @ own @ plant.b + (actual - pole) * (answers @ plant.c + plant.d)
+    return np.asarray(ratios**2 * near * (actual - pole.conjugate()) / (2j * actual.imag))
 
 
 def transform_derivatives(command: Command, pole_rad_s: complex, order: int) -> ComplexArray:
