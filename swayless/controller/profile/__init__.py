@@ -3,7 +3,13 @@
 Not for: commands that an operator gives as it goes; those are the command shaper's.
 """
 
-from swayless.controller.profile.enumeration import Extremes, Played, enumerated, extremes_of
+from swayless.controller.profile.enumeration import (
+    Extremes,
+    PlayedMove,
+    PlayedStops,
+    played_move,
+    played_stops,
+)
 from swayless.controller.profile.model import ProfileModel, StopLaw
 from swayless.controller.profile.pieces import Pieces
 from swayless.controller.profile.pins import ProfileInput, ProfileOutput
@@ -15,14 +21,15 @@ __all__ = [
     "Extremes",
     "MotionProfile",
     "Pieces",
-    "Played",
+    "PlayedMove",
+    "PlayedStops",
     "ProfileInput",
     "ProfileModel",
     "ProfileOutput",
     "ProfileSettings",
     "ProfileStatus",
     "StopLaw",
-    "enumerated",
     "explain_profile",
-    "extremes_of",
+    "played_move",
+    "played_stops",
 ]

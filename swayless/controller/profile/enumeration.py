@@ -27,16 +27,27 @@ class Extremes:
     shape : tuple of two floats
         Of the input, of table and stops, and 0 and the one that holds at the end.
     rest : tuple of two floats
-        Of the position of rest after a stop.
+        Of the position of rest after a stop, and 0.
     """
 
     shape: tuple[float, float]
     rest: tuple[float, float]
 
+    def with_those_of(self, other: Extremes) -> Extremes:
+        """Give the extremes of both.
+
+        Examples
+        --------
+        >>> Extremes((0.0, 1.0), (0.0, 0.0)).with_those_of(Extremes((-2.0, 0.5), (0.5, 1.5)))
+        Extremes(shape=(-2.0, 1.0), rest=(0.0, 1.5))
+        """
+        shape, rest = (*self.shape, *other.shape), (*self.rest, *other.rest)
+        return Extremes((min(shape), max(shape)), (min(rest), max(rest)))
+
 
 @dataclass(frozen=True, eq=False)
-class Played:
-    """Everything of a move by 1, in the number type.
+class PlayedMove:
+    """A move by 1, in the number type.
 
     Parameters
     ----------
@@ -44,54 +55,86 @@ class Played:
         Input at each tick.
     states : ndarray, shape (n + 1, order)
         Of the model, before tick 0 .. n.
-    stops : ndarray, shape (m, n - 1)
-        Inputs of the stop that begins at tick 1 .. n - 1, one in each column.
-    rests : ndarray, shape (n - 1,)
-        Position of rest after it.
     """
 
     shape: FloatArray
     states: FloatArray
-    stops: FloatArray
+
+    @property
+    def aborts(self) -> FloatArray:
+        """States and last input where a stop may begin, at ticks 1 .. n - 1; shape (n - 1, order + 1)."""
+        return np.column_stack([self.states[1:-1], self.shape[:-1]])
+
+
+@dataclass(frozen=True, eq=False)
+class PlayedStops:
+    """Stops of a move by 1, in the number type.
+
+    Parameters
+    ----------
+    inputs : ndarray, shape (m, k)
+        A column for each abort.
+    rests : ndarray, shape (k,)
+        Position of rest after it.
+    """
+
+    inputs: FloatArray
     rests: FloatArray
 
+    @property
+    def extremes(self) -> Extremes:
+        """Of these stops alone."""
+        inputs, rests = self.inputs, self.rests
+        return Extremes((float(inputs.min()), float(inputs.max())), (float(rests.min()), float(rests.max())))
 
-def enumerated(pieces: Pieces, model: ProfileModel, stop: StopLaw, number: NumberType) -> Played:
-    """Play the table, and every stop from every tick of it.
+
+def played_move(pieces: Pieces, model: ProfileModel, number: NumberType) -> PlayedMove:
+    """Play the table, and run the model beside it.
 
     Parameters
     ----------
     pieces : Pieces
     model : ProfileModel
-    stop : StopLaw
     number : NumberType
         ``double`` or ``float``.
 
     Examples
     --------
-    A mass that is pushed for two ticks and stopped by one, from either tick of an abort:
+    A mass that is pushed for two ticks and braked for one:
 
     >>> from swayless.controller.number import number_type
     >>> mass = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
+    >>> played_move(Pieces([2, 1], [[1.0], [-2.0]]), mass, number_type("double")).states[:, 0].tolist()
+    [0.0, 0.5, 2.0, 3.0]
+    """
+    shape = pieces.values(number).astype(dtype_of(number))
+    states = _states(model, shape)
+    return PlayedMove(shape.astype(np.float64), states.astype(np.float64))
+
+
+def played_stops(stop: StopLaw, aborts: FloatArray, number: NumberType) -> PlayedStops:
+    """Play the stops of some aborts.
+
+    Parameters
+    ----------
+    stop : StopLaw
+    aborts : ndarray, shape (k, order + 1)
+        Of `PlayedMove.aborts`.
+    number : NumberType
+        ``double`` or ``float``.
+
+    Examples
+    --------
+    >>> from swayless.controller.number import number_type
     >>> stop = StopLaw([[0.0, -1.0, 0.0]], [1.0, 0.5, 0.0])
-    >>> played = enumerated(Pieces([2, 1], [[1.0], [-2.0]]), mass, stop, number_type("double"))
-    >>> played.states[:, 0].tolist(), played.stops.tolist(), played.rests.tolist()
-    ([0.0, 0.5, 2.0, 3.0], [[-1.0, -2.0]], [1.0, 3.0])
+    >>> played_stops(stop, [[0.5, 1.0, 1.0], [2.0, 2.0, 1.0]], number_type("double")).rests.tolist()
+    [1.0, 3.0]
     """
     dtype = dtype_of(number)
-    shape = pieces.values(number).astype(dtype)
-    states = _states(model, shape)
-    known = np.column_stack([states[1:-1], shape[:-1]])
-    stops = _summed(stop.gains.astype(dtype)[:, np.newaxis, :], known[np.newaxis, :, :])
+    known = np.asarray(aborts).astype(dtype)
+    inputs = _summed(stop.gains.astype(dtype)[:, np.newaxis, :], known[np.newaxis, :, :])
     rests = _summed(stop.rest.astype(dtype), known)
-    return Played(*(np.asarray(each, dtype=np.float64) for each in (shape, states, stops, rests)))
-
-
-def extremes_of(played: Played, hold_ratio: float) -> Extremes:
-    """Give the least and the largest of all that can be played."""
-    inputs = np.concatenate([played.shape, played.stops.ravel(), [0.0, hold_ratio]])
-    rests = np.append(played.rests, 0.0)
-    return Extremes((float(inputs.min()), float(inputs.max())), (float(rests.min()), float(rests.max())))
+    return PlayedStops(inputs.astype(np.float64), rests.astype(np.float64))
 
 
 def _states(model: ProfileModel, shape: NDArray[Any]) -> NDArray[Any]:

@@ -132,4 +132,4 @@ class Pieces:
         """Size of the table in a controller: coefficients, and where needed lengths and steps."""
         size: int = dtype_of(number).itemsize
         each = size * self.coefficients.shape[1] + (size if self.degree else 0)
-        return int(self.lengths.size) * (each + (0 if self.is_raw else LENGTH_BYTES))
+        return int(self.lengths.size * (each + (0 if self.is_raw else LENGTH_BYTES)))

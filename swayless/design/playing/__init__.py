@@ -1,0 +1,19 @@
+"""What a controller needs to play a command computed ahead: the plant from tick to tick, and how to stop it.
+
+Not for: finding the command (`swayless.design.optimal`), or number types.
+"""
+
+from swayless.design.playing.proof import error_after_stops, final_error_ratio, largest_step
+from swayless.design.playing.shape_model import ShapeModel, shape_model
+from swayless.design.playing.stopping import ShapeLimits, Stop, shortest_stop
+
+__all__ = [
+    "ShapeLimits",
+    "ShapeModel",
+    "Stop",
+    "error_after_stops",
+    "final_error_ratio",
+    "largest_step",
+    "shape_model",
+    "shortest_stop",
+]

@@ -1,0 +1,201 @@
+"""The stop: inputs, linear in the state in which an abort finds the plant, that bring it to rest.
+
+What is least is a sum of squares: of the input's distance from the one that holds at the end, as a share of
+the limits' width, and, where the rate is limited, of its changes, as shares of that limit. By itself the
+input would return so to the one that holds, at once where the rate has no limit; the stop adds the least that
+brings the plant to rest, and rests where that is least.
+
+Not for: moves to a target.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from swayless.design.optimal.task import LARGEST_TICKS
+from swayless.design.playing.shape_model import ShapeModel
+from swayless.design.shaper import FloatArray
+from swayless.errors import DesignError
+
+_BLOCK = 1 << 22  # inputs of stops that are held in memory at once
+_WITNESSES = 256  # aborts by which lengths are rejected, before all aborts are tried
+
+
+@dataclass(frozen=True)
+class ShapeLimits:
+    """Limits of the input of a move by 1.
+
+    Parameters
+    ----------
+    low, high : float
+        Of the input less the one before the move; low <= 0 <= high, not both 0.
+    change : float
+        Largest change from tick to tick, > 0; infinite where the rate has no limit.
+    """
+
+    low: float
+    high: float
+    change: float = math.inf
+
+
+@dataclass(frozen=True, eq=False)
+class Stop:
+    """Inputs linear in v: the states when the stop begins, and the input of the tick before.
+
+    Parameters
+    ----------
+    gains : ndarray, shape (m, states + 1)
+        Input of each tick.
+    rest : ndarray, shape (states + 1,)
+        Position of rest.
+    """
+
+    gains: FloatArray
+    rest: FloatArray
+
+    def of(self, known: FloatArray) -> FloatArray:
+        """Give inputs, shape (m, k), of stops from v, shape (states + 1, k)."""
+        return np.asarray(self.gains @ known)
+
+
+def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> Stop:
+    """Find the length of a stop at which all aborts keep the limits, while one does not at a tick less.
+
+    Parameters
+    ----------
+    model : ShapeModel
+    shape : ndarray, shape (n,)
+        Input of a move by 1 from rest, within the limits.
+    limits : ShapeLimits
+
+    Raises
+    ------
+    DesignError
+        If no stop of up to 20000 ticks keeps the limits.
+
+    Examples
+    --------
+    A mass pushed for three ticks and braked for three is stopped in three, with 1.1 as its limit:
+
+    >>> from swayless.design.optimal import LinearPlant
+    >>> from swayless.design.playing.shape_model import shape_model
+    >>> mass = LinearPlant([[0.0, 1.0], [0.0, 0.0]], [0.0, 1.0], [1.0, 0.0])
+    >>> shape = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
+    >>> stop = shortest_stop(shape_model(mass, 1.0), shape, ShapeLimits(-1.1, 1.1))
+    >>> stop.gains.round(12) + 0.0
+    array([[ 0.        , -0.33333333,  0.        ],
+           [ 0.        , -0.33333333,  0.        ],
+           [ 0.        , -0.33333333,  0.        ]])
+    """
+    known = np.vstack([model.states(shape)[1:-1].T, shape[:-1]])
+    if known.shape[1] == 0:
+        return _stop_of(model, limits, model.final.size)
+    tried = np.unique(np.linspace(0, known.shape[1] - 1, _WITNESSES).astype(np.int64))
+    while True:
+        stop = _shortest(model, known[:, tried], limits)
+        broken = _broken(stop, known, model, limits)
+        if broken is None:
+            return stop
+        tried = np.append(tried, broken)
+
+
+def _shortest(model: ShapeModel, known: FloatArray, limits: ShapeLimits) -> Stop:
+    """Double the length until all aborts keep the limits, then bisect."""
+    below, ticks = model.final.size - 1, model.final.size
+    found = _keeping(model, known, limits, ticks)
+    while found is None:
+        if ticks >= LARGEST_TICKS:
+            raise DesignError(
+                f"stop: none of up to {LARGEST_TICKS} ticks keeps the limits after every abort of this move;"
+                " more limit, or a robustness of lower order, is needed"
+            )
+        below, ticks = ticks, min(2 * ticks, LARGEST_TICKS)
+        found = _keeping(model, known, limits, ticks)
+    while ticks - below > 1:
+        middle = (below + ticks) // 2
+        tried = _keeping(model, known, limits, middle)
+        if tried is None:
+            below = middle
+        else:
+            ticks, found = middle, tried
+    return found
+
+
+def _keeping(model: ShapeModel, known: FloatArray, limits: ShapeLimits, ticks: int) -> Stop | None:
+    """Give the stop of a length if all aborts keep the limits."""
+    try:
+        stop = _stop_of(model, limits, ticks)
+    except np.linalg.LinAlgError:
+        return None  # so short that conditions cannot be told apart
+    return stop if _broken(stop, known, model, limits) is None else None
+
+
+def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
+    """Solve for the stop of a length: the conditions of rest as constraints, in orthonormal form.
+
+    Inputs are a = h q + (s - h q) f + x: q the position of rest, s the input before, f the return by itself.
+    The conditions R x = C v - q e have orthonormal rows; the sum of squares has a tridiagonal matrix in x.
+
+    References
+    ----------
+    Nocedal and Wright (2006), "Numerical optimization", section 16.2: the Schur-complement method.
+    """
+    from scipy.linalg import cholesky, qr, solve_triangular, solveh_banded
+
+    held, last = model.hold_ratio, np.eye(model.order + 1)[-1]
+    width, changed = (limits.high - limits.low) ** -2.0, limits.change**-2.0
+    bands = np.full((2, ticks), -changed)
+    bands[1] = width + 2.0 * changed
+    itself = solveh_banded(bands, changed * np.eye(ticks, 1)[:, 0])
+    through = model.kept @ model.system.reach(ticks)
+    rows, triangle = qr(through.T, mode="economic")
+    added = solveh_banded(bands, rows)
+    half = cholesky(rows.T @ added, lower=True)
+    moved = np.column_stack([-model.kept @ np.linalg.matrix_power(model.system.a, ticks), -through @ itself])
+    per_rest = through @ (held * (1.0 - itself)) - model.final
+    # Both sides in the metric of the least sum of squares, so that the best q is a projection.
+    whole = solve_triangular(triangle, np.column_stack([moved, per_rest]), trans="T")
+    wanted = solve_triangular(half, whole, lower=True)
+    wanted, per_rest = wanted[:, :-1], wanted[:, -1]
+    rest = per_rest @ wanted / (per_rest @ per_rest)
+    prices = solve_triangular(half, wanted - np.outer(per_rest, rest), lower=True, trans="T")
+    return Stop(held * rest + np.outer(itself, last - held * rest) + added @ prices, rest)
+
+
+def _broken(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> int | None:
+    """Give the abort that breaks a limit most; None if none does."""
+    worst, broken = 1.0, None
+    for begin, end in blocks(known.shape[1], len(stop.gains)):
+        shares = _shares(stop, known[:, begin:end], model, limits)
+        most = int(np.nan_to_num(shares, nan=np.inf).argmax())
+        if not shares[most] <= worst:
+            worst, broken = float(shares[most]), begin + most
+    return broken
+
+
+def _shares(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> FloatArray:
+    """Largest share of a limit that each stop takes, shape (k,); of what the input has left to its side."""
+    held = model.hold_ratio * (stop.rest @ known)
+    inputs = np.vstack([stop.of(known), held])
+    shares = over(inputs, limits)
+    if math.isfinite(limits.change):
+        changes = np.abs(np.diff(np.vstack([known[-1], inputs]), axis=0)).max(axis=0)
+        shares = np.maximum(shares, changes / limits.change)
+    return shares
+
+
+def over(inputs: FloatArray, limits: ShapeLimits) -> FloatArray:
+    """Give how far inputs lie from the middle of the limits, as a share: above 1 where one is beyond."""
+    middle, half = 0.5 * (limits.high + limits.low), 0.5 * (limits.high - limits.low)
+    return np.asarray(np.maximum(inputs.max(axis=0) - middle, middle - inputs.min(axis=0)) / half)
+
+
+def blocks(count: int, ticks: int) -> Iterator[tuple[int, int]]:
+    """Give begin and end of ranges of aborts whose stops of so many ticks are small enough to hold."""
+    size = max(1, _BLOCK // ticks)
+    for begin in range(0, count, size):
+        yield begin, min(count, begin + size)
