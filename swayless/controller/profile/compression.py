@@ -18,11 +18,17 @@ solving for a command leaves noise there. In float two units of the last place.
 """
 
 _SAMPLES = 64
+_POWERS = np.array(
+    [
+        np.append(chebyshev.cheb2poly(np.eye(degree + 1)[-1]), np.zeros(LARGEST_DEGREE - degree))
+        for degree in range(LARGEST_DEGREE + 1)
+    ]
+)
 
 
 def raw_pieces(values: FloatArray) -> Pieces:
-    """Give the plain table: a piece for each value."""
-    return Pieces(np.ones(values.size, dtype=np.int64), values[:, np.newaxis])
+    """Give the plain table: a piece for each tick."""
+    return Pieces(np.ones(len(values), dtype=np.int64), values[:, np.newaxis])
 
 
 def tolerance(values: FloatArray, number: NumberType) -> float:
@@ -37,8 +43,8 @@ def compressed(
 
     Parameters
     ----------
-    values : ndarray, shape (n,)
-        One for each tick, numbers of the type.
+    values : ndarray, shape (n,) or (n, k)
+        One, or a row, for each tick; numbers of the type.
     number : NumberType
         ``double`` or ``float``.
     is_kept : callable
@@ -76,14 +82,14 @@ def _greedy(
 ) -> Pieces | None:
     """Make each piece as long as it can be; None where that is not smaller than what is allowed."""
     ends = _ends(values, degree, near)
-    piece_bytes = Pieces(np.array([2]), np.zeros((1, degree + 1))).stored_bytes(number)
+    piece_bytes = Pieces(np.array([2]), np.zeros((1, degree + 1, *values.shape[1:]))).stored_bytes(number)
     if _fewest(ends) * piece_bytes >= bytes_allowed:
         return None
     lengths: list[int] = []
     rows: list[FloatArray] = []
     begin = 0
-    while begin < values.size:
-        guess = lengths[-1] if lengths else values.size
+    while begin < len(values):
+        guess = lengths[-1] if lengths else len(values)
         row, length = _longest(values[begin : ends[begin]], degree, near, number, guess)
         rows.append(row)
         lengths.append(length)
@@ -99,9 +105,9 @@ def _ends(values: FloatArray, degree: int, near: float) -> NDArray[np.int64]:
     Differences of order d + 1 vanish on a polynomial of degree d, and of what is `near` it have at most
     2**(d + 1) times that: where one is larger a piece must end.
     """
-    order, size = degree + 1, values.size
-    differences = np.abs(np.diff(values, order)) if size > order else np.zeros(0)
-    bends = np.append(np.flatnonzero(differences > 1.1 * 2.0**order * near), size)
+    order, size = degree + 1, len(values)
+    bent = np.abs(np.diff(values, order, axis=0)) > 1.1 * 2.0**order * near
+    bends = np.append(np.flatnonzero(bent.reshape(len(bent), -1).any(axis=1)), size)
     ticks = np.arange(size)
     latest = bends[np.searchsorted(bends, ticks)] + order
     return np.asarray(np.minimum(np.minimum(latest, size), ticks + LARGEST_LENGTH))
@@ -120,8 +126,8 @@ def _longest(
     values: FloatArray, degree: int, near: float, number: NumberType, guess: int
 ) -> tuple[FloatArray, int]:
     """Fit the longest piece that begins at the first value, by doubling from a guess, and bisection."""
-    best, longest, beyond = np.append(values[0], np.zeros(degree)), 1, values.size + 1
-    length = min(guess, values.size)
+    best, longest, beyond = _with_zeros(values[:1], degree), 1, len(values) + 1
+    length = min(guess, len(values))
     while beyond - longest > 1:
         row = _fitted(values[:length], degree, near, number)
         if row is None:
@@ -134,18 +140,22 @@ def _longest(
 
 def _fitted(values: FloatArray, degree: int, near: float, number: NumberType) -> FloatArray | None:
     """Fit one piece; None where a value that it plays is not near enough."""
-    row = _least_squares(values, degree) if degree else np.array([0.5 * (values.min() + values.max())])
+    row = _least_squares(values, degree) if degree else 0.5 * (values.min(0) + values.max(0))[np.newaxis]
     row = row.astype(dtype_of(number)).astype(np.float64)
-    played = Pieces(np.array([values.size]), row[np.newaxis, :]).values(number)
-    return row if np.abs(played - values).max() <= near else None
+    played = Pieces(np.array([len(values)]), row[np.newaxis]).values(number)
+    return row if (np.abs(played - values) <= near).all() else None
 
 
 def _least_squares(values: FloatArray, degree: int) -> FloatArray:
     """Fit a polynomial near the Chebyshev points, where least squares come close to the least error."""
-    last = values.size - 1
+    last = len(values) - 1
     angles = np.linspace(0.0, np.pi, _SAMPLES)
     at = np.unique(np.round(0.5 * last * (1.0 - np.cos(angles))).astype(np.int64))
-    local = at * (2.0 / max(last, 1)) - 1.0
-    rows = chebyshev.chebvander(local, min(degree, last))
-    powers = chebyshev.cheb2poly(np.linalg.lstsq(rows, values[at])[0])
-    return np.append(powers, np.zeros(degree + 1 - powers.size))
+    few = min(degree, last)
+    rows = chebyshev.chebvander(at * (2.0 / max(last, 1)) - 1.0, few)
+    powers = _POWERS[: few + 1, : few + 1].T @ np.linalg.lstsq(rows, values[at])[0]
+    return _with_zeros(powers, degree)
+
+
+def _with_zeros(row: FloatArray, degree: int) -> FloatArray:
+    return np.concatenate([row, np.zeros((degree + 1 - len(row), *row.shape[1:]))])

@@ -126,13 +126,15 @@ def played_stops(stop: StopLaw, aborts: FloatArray, number: NumberType) -> Playe
     Examples
     --------
     >>> from swayless.controller.number import number_type
-    >>> stop = StopLaw([[0.0, -1.0, 0.0]], [1.0, 0.5, 0.0])
+    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0])
     >>> played_stops(stop, [[0.5, 1.0, 1.0], [2.0, 2.0, 1.0]], number_type("double")).rests.tolist()
     [1.0, 3.0]
     """
     dtype = dtype_of(number)
     known = np.asarray(aborts).astype(dtype)
-    inputs = _summed(stop.gains.astype(dtype)[:, np.newaxis, :], known[np.newaxis, :, :])
+    # Coefficients of each stop, then its values: in this order the block has few sums to do.
+    coefficients = _summed(stop.pieces.coefficients.astype(dtype)[..., np.newaxis, :], known)
+    inputs = stop.pieces.valued(coefficients, number)
     rests = _summed(stop.rest.astype(dtype), known)
     return PlayedStops(inputs.astype(np.float64), rests.astype(np.float64))
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from swayless.controller.profile.pieces import Pieces
 from swayless.design.shaper import FloatArray
 from swayless.errors import ControllerError
 
@@ -60,8 +61,8 @@ class StopLaw:
 
     Parameters
     ----------
-    gains : ndarray, shape (m, n + 1)
-        Input of each tick of the stop: gains @ v.
+    pieces : Pieces
+        Gains of each tick of the stop, rows of n + 1: its input is their product with v.
     rest : ndarray, shape (n + 1,)
         Position of rest: rest @ v.
 
@@ -71,22 +72,21 @@ class StopLaw:
         If shapes do not fit.
     """
 
-    gains: FloatArray
+    pieces: Pieces
     rest: FloatArray
 
     def __post_init__(self) -> None:
-        for name in ("gains", "rest"):
-            object.__setattr__(self, name, _fixed(getattr(self, name)))
-        if self.gains.ndim != 2 or len(self.gains) < 1 or self.rest.shape != self.gains.shape[1:]:
+        object.__setattr__(self, "rest", _fixed(self.rest))
+        if self.rest.ndim != 1 or self.pieces.coefficients.shape[2:] != self.rest.shape:
             raise ControllerError(
-                f"profile: stop of shapes {self.gains.shape} and {self.rest.shape}: must be (m, n + 1) and"
-                " (n + 1,), m >= 1"
+                f"profile: stop of gains {self.pieces.coefficients.shape} and rest {self.rest.shape}: must be"
+                " (p, d + 1, n + 1) and (n + 1,)"
             )
 
     @property
     def ticks(self) -> int:
         """Ticks that a stop lasts."""
-        return len(self.gains)
+        return self.pieces.ticks
 
 
 def _fixed(values: FloatArray) -> FloatArray:

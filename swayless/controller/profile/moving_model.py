@@ -6,6 +6,7 @@ from typing import Any
 
 from swayless.controller.number import NumberType
 from swayless.controller.profile.model import ProfileModel, StopLaw
+from swayless.controller.profile.table import TablePlayer, summed
 
 
 class MovingModel:
@@ -27,7 +28,7 @@ class MovingModel:
             for row, into in zip(model.change.tolist(), model.input.tolist(), strict=True)
         ]
         self._output = [scalar(value) for value in [*model.output.tolist(), model.feedthrough]]
-        self._gains = [[scalar(value) for value in row] for row in stop.gains.tolist()]
+        self._stop = TablePlayer(stop.pieces, number)
         self._rest = [scalar(value) for value in stop.rest.tolist()]
         self.start()
 
@@ -36,40 +37,29 @@ class MovingModel:
         self._states = [self._zero] * len(self._rows)
         self._last = self._zero
         self._known: list[Any] = []
-        self._tick = 0
 
     def advance(self, shape: Any) -> Any:
         """Take the input of this tick; give the position when the tick begins."""
         now = [*self._states, shape]
-        self._states = [
-            state + _summed(row, now) for state, row in zip(self._states, self._rows, strict=True)
-        ]
+        self._states = [state + summed(row, now) for state, row in zip(self._states, self._rows, strict=True)]
         self._last = shape
-        return _summed(self._output, now)
+        return summed(self._output, now)
 
     def begin_stop(self) -> None:
         """Remember where the stop begins."""
         self._known = [*self._states, self._last]
+        self._stop.rewind()
 
     @property
     def has_stopped(self) -> bool:
         """Whether the last tick of the stop has been played."""
-        return self._tick == len(self._gains)
+        return self._stop.is_over
 
     @property
     def rest(self) -> Any:
         """Position of rest after the stop."""
-        return _summed(self._rest, self._known)
+        return summed(self._rest, self._known)
 
     def next_of_stop(self) -> Any:
         """Give the input of this tick of the stop and go on to the next."""
-        self._tick += 1
-        return _summed(self._gains[self._tick - 1], self._known)
-
-
-def _summed(weights: list[Any], values: list[Any]) -> Any:
-    """Sum products from left to right."""
-    total = weights[0] * values[0]
-    for weight, value in zip(weights[1:], values[1:], strict=True):
-        total = total + (weight * value)
-    return total
+        return self._stop.next(self._known)

@@ -1,7 +1,7 @@
 """A table of values, one a tick, as consecutive pieces that are polynomials of one degree.
 
 Switch times are pieces of degree 0, breakpoints those of a higher degree, and a plain table has pieces of
-one tick. Not for: choosing the pieces (`compression`).
+one tick. A value is a number, or a row of gains. Not for: choosing the pieces (`compression`).
 """
 
 from __future__ import annotations
@@ -50,9 +50,9 @@ class Pieces:
     ----------
     lengths : ndarray of int, shape (p,)
         Ticks of each piece, 1 to 65535.
-    coefficients : ndarray, shape (p, d + 1)
+    coefficients : ndarray, shape (p, d + 1) or (p, d + 1, k)
         Of each piece, the constant first; 0 <= d <= 9. The local variable goes from -1 at the first tick of
-        the piece to 1 at its last, and is -1 in a piece of one tick.
+        the piece to 1 at its last, and is -1 in a piece of one tick. With k, a value is a row of k numbers.
 
     Raises
     ------
@@ -76,10 +76,10 @@ class Pieces:
     def __post_init__(self) -> None:
         lengths = np.array(self.lengths, dtype=np.int64)
         coefficients = np.array(self.coefficients, dtype=np.float64)
-        if lengths.ndim != 1 or coefficients.ndim != 2 or not lengths.size == len(coefficients) > 0:
+        if lengths.ndim != 1 or coefficients.ndim not in {2, 3} or not lengths.size == len(coefficients) > 0:
             raise ControllerError(
                 f"pieces: lengths of shape {lengths.shape}, coefficients of shape {coefficients.shape}:"
-                " must be (p,) and (p, d + 1), p >= 1"
+                " must be (p,) and (p, d + 1) or (p, d + 1, k), p >= 1"
             )
         if not 1 <= coefficients.shape[1] <= LARGEST_DEGREE + 1:
             raise ControllerError(
@@ -116,20 +116,24 @@ class Pieces:
         return np.where(self.lengths > 1, 2.0 / last, 0.0).astype(dtype_of(number)).astype(np.float64)
 
     def values(self, number: NumberType) -> FloatArray:
-        """Give the values as the block plays them, shape (ticks,), operation by operation."""
+        """Give the values as the block plays them, shape (ticks,) or (ticks, k), operation by operation."""
+        return self.valued(self.coefficients.astype(dtype_of(number)), number).astype(np.float64)
+
+    def valued(self, coefficients: NDArray[Any], number: NumberType) -> NDArray[Any]:
+        """Give the values of other coefficients, shape (p, d + 1, ...), in the number type."""
         dtype = dtype_of(number)
         piece = np.repeat(np.arange(self.lengths.size), self.lengths)
-        coefficients = self.coefficients.astype(dtype)[piece]
-        values: NDArray[Any] = coefficients[:, -1]
+        values = coefficients[piece, -1]
         if self.degree:
             index = np.arange(self.ticks) - (np.cumsum(self.lengths) - self.lengths)[piece]
             local = index.astype(dtype) * self.scales(number).astype(dtype)[piece] - dtype.type(1)
+            local = local.reshape(-1, *[1] * (values.ndim - 1))
             for power in range(self.degree - 1, -1, -1):
-                values = values * local + coefficients[:, power]
-        return values.astype(np.float64)
+                values = values * local + coefficients[piece, power]
+        return np.asarray(values)
 
     def stored_bytes(self, number: NumberType) -> int:
         """Size of the table in a controller: coefficients, and where needed lengths and steps."""
         size: int = dtype_of(number).itemsize
-        each = size * self.coefficients.shape[1] + (size if self.degree else 0)
+        each = size * self.coefficients[0].size + (size if self.degree else 0)
         return int(self.lengths.size * (each + (0 if self.is_raw else LENGTH_BYTES)))

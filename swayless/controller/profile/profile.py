@@ -37,7 +37,7 @@ class MotionProfile:
 
     >>> from swayless.controller.profile import Extremes, Pieces, ProfileModel, StopLaw
     >>> mass = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
-    >>> stop = StopLaw([[0.0, -1.0, 0.0]], [1.0, 0.5, 0.0])
+    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0])
     >>> table, extremes = Pieces([1, 1], [[1.0], [-1.0]]), Extremes((-1.0, 1.0), (0.0, 1.0))
     >>> profile = MotionProfile(ProfileSettings(1.0, table, mass, stop, extremes, (-4.0, 4.0)))
     >>> for tick in range(3):

@@ -80,9 +80,11 @@ class ProfileSettings:
             )
 
     def _check_sizes(self) -> None:
-        if self.stop.gains.shape[1] != self.model.order + 1:
+        if self.pieces.coefficients.ndim != 2:
+            raise ControllerError("profile: pieces of rows: the value of a tick must be one number")
+        if self.stop.rest.size != self.model.order + 1:
             raise ControllerError(
-                f"profile: stop gains of {self.stop.gains.shape[1]} columns: must be {self.model.order + 1},"
+                f"profile: stop of {self.stop.rest.size} gains a tick: must be {self.model.order + 1}, for"
                 " the states of the model and the input before"
             )
 
@@ -95,7 +97,7 @@ class ProfileSettings:
             "model.input": (model.input, wide),
             "model.output": (model.output, wide),
             "model.feedthrough": (np.array([model.feedthrough]), LARGEST_REST),
-            "stop.gains": (stop.gains, wide),
+            "stop.pieces": (stop.pieces.coefficients, wide),
             "stop.rest": (stop.rest, wide),
             "extremes.shape": (np.array(self.extremes.shape), LARGEST_SHAPE),
             "extremes.rest": (np.array(self.extremes.rest), LARGEST_REST),

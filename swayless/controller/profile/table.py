@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from swayless.controller.number import NumberType
@@ -21,10 +22,11 @@ class TablePlayer:
 
     def __init__(self, pieces: Pieces, number: NumberType) -> None:
         scalar = number.scalar
-        self._scalar = scalar
+        self._scalar, self._one = scalar, scalar(1)
         self._lengths = pieces.lengths.tolist()
         self._scales = [scalar(value) for value in pieces.scales(number).tolist()]
-        self._coefficients = [[scalar(c) for c in piece] for piece in pieces.coefficients.tolist()]
+        self._coefficients = _scalars(pieces.coefficients.tolist(), scalar)
+        self._now: list[Any] = []
         self.rewind()
 
     def rewind(self) -> None:
@@ -36,11 +38,20 @@ class TablePlayer:
         """Whether the last tick has been played."""
         return self._piece == len(self._lengths)
 
-    def next(self) -> Any:
-        """Give the value of this tick and go on to the next."""
-        *lower, value = self._coefficients[self._piece]
+    def next(self, factors: Sequence[Any] = ()) -> Any:
+        """Give the value of this tick and go on to the next.
+
+        Parameters
+        ----------
+        factors : sequence
+            Of a table of rows: the value is the sum of the row's products with them.
+        """
+        if self._index == 0:
+            coefficients = self._coefficients[self._piece]
+            self._now = [summed(row, factors) for row in coefficients] if factors else coefficients
+        *lower, value = self._now
         if lower:
-            local = (self._scalar(self._index) * self._scales[self._piece]) - self._scalar(1)
+            local = (self._scalar(self._index) * self._scales[self._piece]) - self._one
             for coefficient in reversed(lower):
                 value = (value * local) + coefficient
         self._index += 1
@@ -48,3 +59,21 @@ class TablePlayer:
             self._index = 0
             self._piece += 1
         return value
+
+
+def summed(weights: Sequence[Any], values: Sequence[Any]) -> Any:
+    """Sum products from left to right.
+
+    Examples
+    --------
+    >>> summed([1.0, 2.0], [3.0, 4.0])
+    11.0
+    """
+    total = weights[0] * values[0]
+    for weight, value in zip(weights[1:], values[1:], strict=True):
+        total = total + (weight * value)
+    return total
+
+
+def _scalars(values: Any, scalar: Any) -> Any:
+    return [_scalars(value, scalar) for value in values] if isinstance(values, list) else scalar(values)
