@@ -65,8 +65,14 @@ FrequencyOption = Annotated[
     str | None, typer.Option("--frequency", metavar="HZ", help="Of the load, in the place of a rope length.")
 ]
 OutputOption = Annotated[
-    Path | None,
-    typer.Option("-o", "--output", metavar="FILE.csv", help="Write command and trajectory, one line a tick."),
+    list[Path] | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="Write command and trajectory, one line a tick (.csv), or draw them (.svg, .png, .pdf); may be"
+        " given several times.",
+    ),
 ]
 
 
@@ -98,16 +104,16 @@ def optimal(
 
     Examples
     --------
-    swayless profile optimal move.toml --relax 1.5 -o move.csv
+    swayless profile optimal move.toml --relax 1.5 -o move.csv -o move.svg
     swayless profile optimal crane.toml --rope-length "6 m" --target 12 --robust 1
     swayless profile optimal --numerator 1 --denominator "1 0 0" --limit 2 --tick 0.01 --target 3
     """
     from swayless.cli.console import print_json
     from swayless.cli.option_table import option_table
+    from swayless.cli.profile_figures import check_places, draw_move, write_by_suffix
     from swayless.cli.profile_output import document, print_found, trajectory_text
     from swayless.cli.profile_work import found_for
     from swayless.machine.profile_file import load_profile
-    from swayless.machine.writing import write_text_atomically
 
     given = {
         "numerator": numerator,
@@ -125,13 +131,15 @@ def optimal(
         "rope_length": rope_length,
         "frequency": frequency,
     }
+    outputs = output or []
+    check_places(outputs)
     request = load_profile(file, option_table(given, []).raw, axis=axis)
     found = found_for(request)
-    if output is not None:
-        write_text_atomically(output, trajectory_text(request, found))
+    write_by_suffix(outputs, lambda: trajectory_text(request, found), lambda: draw_move(request, found))
     if json:
         print_json(document(request, found))
         return
     print_found(request, found)
     note = "note: give -o to write the command and the output that it should make, one line a tick"
-    typer.echo(note if output is None else f"{output}: written")
+    for line in [f"{path}: written" for path in outputs] or [note]:
+        typer.echo(line)

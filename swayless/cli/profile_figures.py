@@ -1,0 +1,109 @@
+"""Figures and files of moves computed ahead. Not for: drawing them, or finding the command."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swayless.cli.console import counted
+from swayless.errors import FileError
+from swayless.machine.writing import write_text_atomically
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from swayless.design.optimal import Command, OptimalCommand
+    from swayless.machine.profile_file import ProfileRequest
+    from swayless.report.profile import PlottedMove
+
+TABLE, *FIGURES = (".csv", ".svg", ".png", ".pdf")
+"""What suffixes become."""
+
+
+def profile_figures(request: ProfileRequest, found: OptimalCommand) -> dict[str, Callable[[], Figure]]:
+    """Tell how to draw the figures of a request, by their paths in the directory of its build."""
+    return move_figures(plotted(request, found.command))
+
+
+def move_figures(move: PlottedMove) -> dict[str, Callable[[], Figure]]:
+    """Tell how to draw the figures of any move, by their paths in the directory of its build."""
+    from swayless.report.profile import move_figure
+
+    return {"figures/move.svg": partial(move_figure, move)}
+
+
+def draw_move(request: ProfileRequest, found: OptimalCommand) -> Figure:
+    """Draw what was found."""
+    from swayless.report.profile import move_figure
+
+    return move_figure(plotted(request, found.command))
+
+
+def plotted(request: ProfileRequest, command: Command) -> PlottedMove:
+    """Give a move as figures show it."""
+    from swayless.report.profile import PlottedMove
+
+    task = request.task
+    return PlottedMove(
+        move_title(request.name, task.start, task.target, command),
+        task.plant,
+        command,
+        task.start,
+        task.target,
+        task.limits,
+    )
+
+
+def move_title(name: str, start: float, target: float, command: Command) -> str:
+    """Name a move.
+
+    Examples
+    --------
+    >>> from swayless.design.optimal import Command
+    >>> move_title("crane", 0.0, 2.0, Command(0.5, [1.0, 1.0], 0.0))
+    'crane: 0 to 2 in 2 ticks, 1 s'
+    """
+    lasts = f"{counted(command.values.size, 'tick')}, {command.duration_s:.6g} s"
+    return f"{name}: {start:g} to {target:g} in {lasts}"
+
+
+def check_places(paths: Sequence[Path]) -> None:
+    """Refuse a place in which nothing can be written, before anything is computed.
+
+    Raises
+    ------
+    FileError
+        If a suffix is neither that of a table nor a figure's, or a folder is missing.
+    """
+    allowed = f"must be {TABLE} for a table, or a figure's: {', '.join(FIGURES)}"
+    wrong = [
+        f"{path}: suffix {path.suffix!r}: {allowed}"
+        for path in paths
+        if path.suffix.lower() not in (TABLE, *FIGURES)
+    ]
+    absent = [
+        f"{path}: cannot be written: there is no folder {path.parent}"
+        for path in paths
+        if not path.parent.exists()
+    ]
+    if wrong or absent:
+        raise FileError([*wrong, *absent])
+
+
+def write_by_suffix(paths: Sequence[Path], table: Callable[[], str], draw: Callable[[], Figure]) -> None:
+    """Write a table or a figure to each path, after its suffix.
+
+    Raises
+    ------
+    FileError
+        If a file cannot be written.
+    """
+    for path in paths:
+        if path.suffix.lower() == TABLE:
+            write_text_atomically(path, table())
+        else:
+            from swayless.report import save_figure
+
+            save_figure(draw(), path)
