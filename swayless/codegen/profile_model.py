@@ -11,8 +11,14 @@ from swayless.codegen.literals import c_literal, shortest, st_literal
 from swayless.codegen.names import check_c_names, check_st_names
 from swayless.codegen.pin import Pin
 from swayless.codegen.profile_pins import INPUTS, OUTPUTS, StatusBit
-from swayless.codegen.profile_st_state import ST_ARRAYS, ST_VARIABLES
-from swayless.codegen.profile_tables import ProfileTable, profile_tables
+from swayless.codegen.profile_st_state import ST_ARRAYS, ST_TERMS, ST_VARIABLES
+from swayless.codegen.profile_tables import (
+    PlayedPieces,
+    ProfileTable,
+    move_pieces,
+    profile_tables,
+    stop_pieces,
+)
 from swayless.codegen.provenance import comment_text
 from swayless.codegen.st_types import ST_BYTES, StTypes, Variable
 from swayless.controller.number import number_type
@@ -87,7 +93,7 @@ class ProfileCode:
     def __post_init__(self) -> None:
         check_c_names(self.name)
         names = [pin.st_name for pin in (*INPUTS, *OUTPUTS)]
-        names += [variable.st_name for variable in (*ST_VARIABLES, *ST_ARRAYS)]
+        names += [variable.st_name for variable in (*ST_VARIABLES, *ST_ARRAYS, ST_TERMS)]
         names += [constant.st_name for constant in self.constants] + [t.st_name for t in self.tables]
         check_st_names(self.name, [f"FB_{self.name}_Profile", *names])
 
@@ -194,6 +200,11 @@ class ProfileCode:
         return ST_ARRAYS
 
     @property
+    def st_terms(self) -> Variable:
+        """Array for the coefficients of a piece of the stop."""
+        return ST_TERMS
+
+    @property
     def states(self) -> int:
         """States of the plant."""
         return self.settings.model.order
@@ -208,20 +219,38 @@ class ProfileCode:
         """Index of the last state."""
         return self.states - 1
 
-    @property
-    def pieces(self) -> int:
-        """Pieces of the table."""
-        return int(self.settings.pieces.lengths.size)
+    @cached_property
+    def move(self) -> PlayedPieces:
+        """What a move plays."""
+        return move_pieces(self.settings)
+
+    @cached_property
+    def stop(self) -> PlayedPieces:
+        """What a stop plays."""
+        return stop_pieces(self.settings)
 
     @property
-    def degree(self) -> int:
-        """Degree of each piece."""
-        return self.settings.pieces.degree
+    def has_polynomials(self) -> bool:
+        """Whether a piece of either has a variable."""
+        return self.move.degree > 0 or self.stop.degree > 0
 
-    @property
-    def coefficients(self) -> int:
-        """Coefficients of each piece."""
-        return self.degree + 1
+    def st_first(self, coefficients: int) -> str:
+        """Index of the first coefficient of a piece; one of each tick needs no product."""
+        return "Piece" if coefficients == 1 else f"Piece * {coefficients}"
+
+    def st_offset(self, first: str, offset: str) -> str:
+        """Index that lies behind another one, or the offset where that is 0.
+
+        Parameters
+        ----------
+        first : str
+            Index; empty for 0.
+        offset : str
+            Variable or number.
+        """
+        if not first:
+            return offset
+        return first if offset == "0" else f"({first}) + {offset}"
 
     def st_cell(self, row: str, column: str) -> str:
         """Index of a cell of a table whose rows have a column for each state and the shape.
@@ -233,20 +262,7 @@ class ProfileCode:
         column : str
             Variable or number.
         """
-        first = f"{row} * {self.columns}"
-        if not row:
-            return column
-        return first if column == "0" else f"({first}) + {column}"
-
-    @property
-    def is_raw(self) -> bool:
-        """Whether each tick has its own value."""
-        return self.settings.pieces.is_raw
-
-    @property
-    def stop_ticks(self) -> int:
-        """Ticks that a stop takes."""
-        return len(self.settings.stop.gains)
+        return self.st_offset(f"{row} * {self.columns}" if row else "", column)
 
     @property
     def holds_with_input(self) -> bool:
@@ -262,7 +278,8 @@ class ProfileCode:
     def ram_bytes(self) -> int:
         """Upper bound of the size of the C state."""
         real = ST_BYTES[self.st_types.real]
-        return real * (2 * self.columns + 4) + 4 * 4 + 8
+        terms = 0 if self.stop.is_raw else self.stop.coefficients
+        return real * (2 * self.columns + 4 + terms) + 3 * 4 + 6 + 6
 
     @property
     def table_bytes(self) -> int:
@@ -281,7 +298,7 @@ class ProfileCode:
             "This file is yours: use, change and ship it as you like.",
             "",
             f"Tick {tick_s:.6g} s. A move takes {ticks} of them, {ticks * tick_s:.6g} s, however far it goes;"
-            f" a stop {self.stop_ticks}.",
+            f" a stop {self.settings.stop.ticks}.",
             f"References from {low:.6g} to {high:.6g}; a move that could need more is refused.",
             *self.origin.facts,
             f"Memory: {self.ram_bytes} bytes of state at most, {self.table_bytes} of tables.",

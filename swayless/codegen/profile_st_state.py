@@ -11,9 +11,8 @@ ST_VARIABLES = (
     Variable("StopPlays", "bool", "a stop plays", st_reset="FALSE"),
     Variable("HasArrived", "bool", "as the output Done", st_reset="FALSE"),
     Variable("HasStopped", "bool", "as the output Aborted", st_reset="FALSE"),
-    Variable("Piece", "word", "of the table, that plays next", st_reset="0"),
+    Variable("Piece", "word", "of the move or the stop, that plays next", st_reset="0"),
     Variable("PieceTick", "word", "ticks of it that have played", st_reset="0"),
-    Variable("StopTick", "word", "ticks of the stop that have played", st_reset="0"),
     Variable("Refused", "word", "status bits of the last refusal", st_reset="0"),
     Variable(
         "HeldPosition", "real", "where the plant rests, or will after the stop", st_reset="FirstPosition"
@@ -29,6 +28,8 @@ ST_VARIABLES = (
     Variable("Local", "real", "variable of a piece's polynomial, -1 to 1"),
     Variable("Distance", "real", "Target less Start"),
     Variable("Sum", "real", "sum of products, and the shape"),
+    Variable("GainRow", "word", "row of gains"),
+    Variable("Term", "word", "loop"),
     Variable("Row", "word", "loop"),
     Variable("Column", "word", "loop"),
 )
@@ -40,3 +41,6 @@ ST_ARRAYS = (
     Variable("Results", "real", "change of each state, and the position, in this tick"),
 )
 """Arrays, one cell longer than the plant has states."""
+
+ST_TERMS = Variable("StopTerms", "real", "coefficients of the piece of the stop that plays, if it has pieces")
+"""An array that only stops with pieces have."""

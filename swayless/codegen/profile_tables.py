@@ -14,7 +14,7 @@ import numpy as np
 from swayless.codegen.literals import c_literal, st_literal
 from swayless.codegen.st_types import ST_BYTES, ST_REALS
 from swayless.controller.number import NumberType
-from swayless.controller.profile import ProfileSettings
+from swayless.controller.profile import Pieces, ProfileModel, ProfileSettings
 from swayless.design.shaper import FloatArray
 
 WIDTH = 112
@@ -101,6 +101,53 @@ def _lines(rows: Sequence[tuple[str, list[str]]], opening: str, closing: str) ->
         yield f"{lines[-1]}{end} {opening} {text} {closing}"
 
 
+@dataclass(frozen=True)
+class PlayedPieces:
+    """A table that is played tick by tick, as the templates see it.
+
+    Parameters
+    ----------
+    c_name, st_name : str
+        What the names of its tables begin with.
+    pieces : Pieces
+        Values, or rows of gains.
+    """
+
+    c_name: str
+    st_name: str
+    pieces: Pieces
+
+    @property
+    def count(self) -> int:
+        """Number of pieces."""
+        return int(self.pieces.lengths.size)
+
+    @property
+    def degree(self) -> int:
+        """Degree of each piece."""
+        return self.pieces.degree
+
+    @property
+    def coefficients(self) -> int:
+        """Coefficients of each piece."""
+        return self.degree + 1
+
+    @property
+    def is_raw(self) -> bool:
+        """Whether each tick has a piece of its own."""
+        return self.pieces.is_raw
+
+
+def move_pieces(settings: ProfileSettings) -> PlayedPieces:
+    """Give what a move plays."""
+    return PlayedPieces("MOVE", "Move", settings.pieces)
+
+
+def stop_pieces(settings: ProfileSettings) -> PlayedPieces:
+    """Give what a stop plays."""
+    return PlayedPieces("STOP", "Stop", settings.stop.pieces)
+
+
 def profile_tables(settings: ProfileSettings) -> tuple[ProfileTable, ...]:
     """Lay out every table of a block.
 
@@ -115,7 +162,7 @@ def profile_tables(settings: ProfileSettings) -> tuple[ProfileTable, ...]:
 
     >>> from swayless.controller.profile import Extremes, Pieces, ProfileModel, ProfileSettings, StopLaw
     >>> mass = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
-    >>> stop = StopLaw([[0.0, -1.0, 0.0]], [1.0, 0.5, 0.0])
+    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0])
     >>> pieces, extremes = Pieces([2, 2], [[0.25], [-0.25]]), Extremes((-1.0, 1.0), (0.0, 1.0))
     >>> tables = profile_tables(ProfileSettings(0.01, pieces, mass, stop, extremes, (-4.0, 4.0)))
     >>> for line in tables[0].c_lines:
@@ -123,52 +170,79 @@ def profile_tables(settings: ProfileSettings) -> tuple[ProfileTable, ...]:
     0.25, /* ticks 0 to 1, 0 s */
     -0.25 /* ticks 2 to 3, 0.02 s */
     """
-    return (*_piece_tables(settings), *_plant_tables(settings))
+    return tuple(_tables(settings))
 
 
-def _piece_tables(settings: ProfileSettings) -> Iterator[ProfileTable]:
-    pieces, number = settings.pieces, settings.number
-    if pieces.is_raw:
-        doc = "Shape of a move by 1: the input of each tick, less what held the plant before."
-        values = pieces.coefficients[:, 0]
-        parts = [(tick, values[tick : tick + RAW_A_ROW]) for tick in range(0, values.size, RAW_A_ROW)]
-        rows = [(_when(tick, tick + part.size - 1, settings.tick_s), part) for tick, part in parts]
-        yield ProfileTable("PIECE_SHAPES", "PieceShapes", rows, doc, number)
-        return
-    ends = np.cumsum(pieces.lengths)
-    when = [
-        _when(int(end - length), int(end) - 1, settings.tick_s)
-        for end, length in zip(ends, pieces.lengths, strict=True)
-    ]
-    doc = "Shape of a move by 1: the input, less what held the plant before, from switch to switch."
-    if pieces.degree:
-        doc = f"Shape of a move by 1, in polynomials of degree {pieces.degree}, the highest power first."
-    shapes = pieces.coefficients[:, ::-1]
-    yield ProfileTable("PIECE_SHAPES", "PieceShapes", list(zip(when, shapes, strict=True)), doc, number)
-    lengths = [(text, np.array([length])) for text, length in zip(when, pieces.lengths, strict=True)]
-    yield ProfileTable("PIECE_LENGTHS", "PieceLengths", lengths, "Ticks of each piece.", None)
-    if pieces.degree:
-        steps = [(text, np.array([step])) for text, step in zip(when, pieces.scales(number), strict=True)]
-        doc = "Step of a piece's own variable, which goes from -1 to 1: 2 over one tick less than it has."
-        yield ProfileTable("PIECE_STEPS", "PieceSteps", steps, doc, number)
-
-
-def _plant_tables(settings: ProfileSettings) -> Iterator[ProfileTable]:
-    model, stop, number = settings.model, settings.stop, settings.number
-    changes = np.column_stack([model.change, model.input])
-    rows: Rows = [(f"change of state {row}", values) for row, values in enumerate(changes)]
-    rows.append(("position", np.append(model.output, model.feedthrough)))
+def _tables(settings: ProfileSettings) -> Iterator[ProfileTable]:
+    number, tick_s, rest = settings.number, settings.tick_s, settings.stop.rest
+    move, stop = move_pieces(settings), stop_pieces(settings)
+    doc = "Shape of a move by 1: input less what held the plant"
+    shapes = _plain_rows(move.pieces, tick_s) if move.is_raw else _piece_rows(move.pieces, tick_s)
+    yield ProfileTable("MOVE_SHAPES", "MoveShapes", shapes, f"{doc}{_form(move)}.", number)
+    yield from _timing(move, settings)
     doc = (
         "Plant of the design, sampled: what a tick adds to each state, and the position; of states and shape."
     )
-    yield ProfileTable("PLANT", "PlantRows", rows, doc, number)
-    rows = [(f"tick {tick} of a stop", values) for tick, values in enumerate(stop.gains)]
-    doc = (
-        "Shape of a stop, by the states and the last shape before the abort: least change that leads to rest."
-    )
-    yield ProfileTable("STOP", "StopRows", rows, doc, number)
+    yield ProfileTable("PLANT", "PlantRows", _plant_rows(settings.model), doc, number)
+    doc = "Shape of a stop, of the states and the last shape before it"
+    gains = _piece_rows(stop.pieces, tick_s)
+    yield ProfileTable("STOP_GAINS", "StopGains", gains, f"{doc}{_form(stop)}.", number)
+    yield from _timing(stop, settings)
     doc = "Where a stop comes to rest, of the same."
-    yield ProfileTable("STOP_REST", "StopRest", [("share of the travel", stop.rest)], doc, number)
+    yield ProfileTable("STOP_REST", "StopRest", [("share of the travel", rest)], doc, number)
+
+
+def _form(played: PlayedPieces) -> str:
+    """Say what a row is."""
+    if played.degree:
+        return f", in polynomials of degree {played.degree}, highest power first"
+    return "" if played.is_raw else ", from switch to switch"
+
+
+def _plain_rows(pieces: Pieces, tick_s: float) -> Rows:
+    """Put some values of a plain table in each row."""
+    values = pieces.coefficients[:, 0]
+    parts = [(tick, values[tick : tick + RAW_A_ROW]) for tick in range(0, values.size, RAW_A_ROW)]
+    return [(_when(tick, tick + part.size - 1, tick_s), part) for tick, part in parts]
+
+
+def _piece_rows(pieces: Pieces, tick_s: float) -> Rows:
+    """Put one piece in each row; of gains, each power in a row of its own."""
+    when, ordered = _whens(pieces, tick_s), pieces.coefficients[:, ::-1]
+    if ordered.ndim == 2:
+        return list(zip(when, ordered, strict=True))
+    return [
+        (f"{text}, power {pieces.degree - place}" if pieces.degree else text, row)
+        for text, rows in zip(when, ordered, strict=True)
+        for place, row in enumerate(rows)
+    ]
+
+
+def _timing(played: PlayedPieces, settings: ProfileSettings) -> Iterator[ProfileTable]:
+    """Lengths of pieces, where not each is a tick, and the steps of their variables."""
+    pieces, when = played.pieces, _whens(played.pieces, settings.tick_s)
+    if not pieces.is_raw:
+        lengths = [(text, np.array([length])) for text, length in zip(when, pieces.lengths, strict=True)]
+        names = f"{played.c_name}_LENGTHS", f"{played.st_name}Lengths"
+        yield ProfileTable(*names, lengths, "Ticks of each piece.", None)
+    if pieces.degree:
+        scales = pieces.scales(settings.number)
+        steps = [(text, np.array([step])) for text, step in zip(when, scales, strict=True)]
+        doc = "Step of a piece's own variable, which goes from -1 to 1: 2 over one tick less than it has."
+        names = f"{played.c_name}_STEPS", f"{played.st_name}Steps"
+        yield ProfileTable(*names, steps, doc, settings.number)
+
+
+def _plant_rows(model: ProfileModel) -> Rows:
+    changes = np.column_stack([model.change, model.input])
+    rows: Rows = [(f"change of state {row}", values) for row, values in enumerate(changes)]
+    return [*rows, ("position", np.append(model.output, model.feedthrough))]
+
+
+def _whens(pieces: Pieces, tick_s: float) -> list[str]:
+    ends = np.cumsum(pieces.lengths).tolist()
+    begins = [0, *ends[:-1]]
+    return [_when(begin, end - 1, tick_s) for begin, end in zip(begins, ends, strict=True)]
 
 
 def _when(first: int, last: int, tick_s: float) -> str:

@@ -23,6 +23,12 @@ SCALES = (1.0, -1.0, 0.37, -0.61, 1e-3)
 PHASES = 24
 """Ticks of a move at which it is aborted: all of a short one."""
 
+MOST_TICKS = 60_000
+"""Of one stimulus: of a move of thousands of ticks not every scale is played, nor each phase aborted."""
+
+LONGEST_SOAK = 200_000
+"""Nothing of a move outlives the next one: more of them show no more."""
+
 MOST_HALVINGS = 54
 """A double has 53 bits: one more finds the last digit of any limit."""
 
@@ -55,7 +61,7 @@ class Operator:
         self.scalar = self.settings.number.scalar
         self.home = self.scalar(code.origin.example[0])
         self.travel = code.origin.example[1] - code.origin.example[0]
-        self.ticks, self.stop_ticks = self.settings.pieces.ticks, code.stop_ticks
+        self.ticks, self.stop_ticks = self.settings.pieces.ticks, self.settings.stop.ticks
         self._block = MotionProfile(self.settings)
         self._given: list[tuple[Any, ...]] = []
         self._found: list[tuple[Any, ...]] = []
@@ -104,7 +110,7 @@ def profile_stimuli(code: ProfileCode, soak_ticks: int) -> Iterator[ProfileStimu
     code : ProfileCode
         The block, and the move of its design.
     soak_ticks : int
-        Length of the long random run; 0 leaves it out.
+        Length of the long random run, up to `LONGEST_SOAK`; 0 leaves it out.
     """
     yield whole_moves(Operator(code, 1))
     yield aborts(Operator(code, 2))
@@ -112,12 +118,14 @@ def profile_stimuli(code: ProfileCode, soak_ticks: int) -> Iterator[ProfileStimu
     yield odd_values(Operator(code, 4))
     yield limits(Operator(code, 5))
     if soak_ticks:
-        yield soak(Operator(code, 6), soak_ticks)
+        yield soak(Operator(code, 6), min(soak_ticks, LONGEST_SOAK))
 
 
 def whole_moves(operator: Operator) -> ProfileStimulus:
     """Move there and back, by all scales and either way, with execute held, or for one tick only."""
     for scale in SCALES:
+        if operator.played > MOST_TICKS:
+            break
         for press in (1, operator.ticks + 3):
             operator.move(operator.last.position + operator.scalar(scale * operator.travel), press=press)
             operator.move(operator.home, press=press)
@@ -126,7 +134,8 @@ def whole_moves(operator: Operator) -> ProfileStimulus:
 
 def aborts(operator: Operator) -> ProfileStimulus:
     """Abort at the first and the last ticks and many between, and go home from where the plant rests."""
-    phases = np.unique(np.linspace(0, operator.ticks, PHASES).astype(int))
+    most = max(4, min(PHASES, MOST_TICKS // operator.ticks))
+    phases = np.unique(np.linspace(0, operator.ticks, most).astype(int))
     for place, phase in enumerate(phases.tolist()):
         target = operator.home + operator.scalar(SCALES[place % 3] * operator.travel)
         operator.move(target, press=1, abort_at=phase, abort_ticks=1 + 3 * (place % 2))
@@ -137,7 +146,8 @@ def aborts(operator: Operator) -> ProfileStimulus:
 def toggled(operator: Operator) -> ProfileStimulus:
     """Toggle execute and abort while starts and targets wander."""
     for _ in range(EPISODES):
-        _episode(operator)
+        if operator.played <= MOST_TICKS:
+            _episode(operator)
     return operator.stimulus("execute and abort toggled")
 
 

@@ -16,15 +16,17 @@ from swayless.controller.profile import (
     StopLaw,
 )
 
-LAG = ProfileModel([[-0.1]], [0.1], [1.0], 0.0), StopLaw([[0.7, 0.2]], [1.0, -0.1])
+_RANDOM = np.random.default_rng(7)
+LAG = ProfileModel([[-0.1]], [0.1], [1.0], 0.0), StopLaw(Pieces([1], [[[0.7, 0.2]]]), [1.0, -0.1])
 MASS = (
     ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0),
-    StopLaw([[0.0, -0.75, 0.125], [0.0, -0.25, 0.0]], [1.0, 0.875, 0.0]),
+    StopLaw(Pieces([1, 1], [[[0.0, -0.75, 0.125]], [[0.0, -0.25, 0.0]]]), [1.0, 0.875, 0.0]),
 )
-_RANDOM = np.random.default_rng(7)
+SHORT = LAG[0], StopLaw(Pieces([3, 1, 2], 0.3 * _RANDOM.normal(size=(3, 1, 2))), [1.0, 0.25])
+LINEAR = MASS[0], StopLaw(Pieces([4, 1], 0.1 * _RANDOM.normal(size=(2, 2, 3))), [1.0, 0.875, 0.0])
 FOUR = (
     ProfileModel(0.1 * _RANDOM.normal(size=(4, 4)), _RANDOM.normal(size=4), _RANDOM.normal(size=4), 0.3),
-    StopLaw(0.1 * _RANDOM.normal(size=(6, 5)), 0.1 * _RANDOM.normal(size=5)),
+    StopLaw(Pieces([5, 2], 0.1 * _RANDOM.normal(size=(2, 4, 5))), 0.1 * _RANDOM.normal(size=5)),
 )
 """Not a plant that anybody would move: only its arithmetic matters here."""
 
@@ -38,6 +40,8 @@ BLOCKS = {
     "plain, one state": (PIECES["plain"], LAG, 1.0, 9.0),
     "switching, a mass": (PIECES["switching"], MASS, 0.0, 2.0**49),
     "straight, one state": (PIECES["straight"], LAG, -0.7, 3.0),
+    "plain, its stop in switches": (PIECES["plain"], SHORT, 0.3, 9.0),
+    "switching, its stop in lines": (PIECES["switching"], LINEAR, 1.0, 9.0),
     "polynomial, four states": (PIECES["polynomial"], FOUR, 0.4, 5.0),
 }
 """Table, plant and stop, ratio of holding, longest travel."""
@@ -56,7 +60,7 @@ def block(name, number):
     model = ProfileModel(
         held(model.change), held(model.input), held(model.output), float(held(model.feedthrough))
     )
-    stop = StopLaw(held(stop.gains), held(stop.rest))
+    stop = StopLaw(Pieces(stop.pieces.lengths, held(stop.pieces.coefficients)), held(stop.rest))
     ratio = float(held(hold_ratio))
     loose = Extremes((-1.0, 1.0), (0.0, 1.0))
     settings = ProfileSettings(0.01, pieces, model, stop, loose, (-64.0, 64.0), max_travel=1.0, number=kind)

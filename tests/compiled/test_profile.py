@@ -23,7 +23,7 @@ PRESENT = [compiler for compiler in COMPILERS if compiler.name == "zig" or compi
 SOAK = 4_000
 """Ticks of some hundred moves; a build runs a million."""
 
-CASES = [(name, "double") for name in BLOCKS] + [(name, "float") for name in list(BLOCKS)[1::2]]
+CASES = [(name, "double") for name in BLOCKS] + [(name, "float") for name in list(BLOCKS)[-2:]]
 
 
 def files_of(code):
@@ -43,9 +43,8 @@ def test_every_bit_of_every_output_is_the_reference_s(name, number):
 
 
 @pytest.mark.parametrize("compiler", PRESENT, ids=lambda compiler: compiler.name)
-@pytest.mark.parametrize("name", list(BLOCKS)[1::2])
-def test_every_compiler_accepts_the_code_without_a_warning(name, compiler):
-    code = block(name, "float")
+def test_every_compiler_accepts_the_code_without_a_warning(compiler):
+    code = block("switching, its stop in lines", "float")
     verdicts = verify_profile(code, c_files=files_of(code)["c"], compiler=compiler, soak_ticks=0)
     assert all(each.comparison.is_equal for each in verdicts)
 
@@ -62,8 +61,8 @@ def test_the_stimuli_reach_every_status_bit_and_end_moves_and_stops():
 
 WRONG = {
     "a sign": ("(HoldRatio * MoveStart) + (Travel", "(HoldRatio * MoveStart) - (Travel"),
-    "a tick of a stop": ("IF StopTick >= 6", "IF StopTick >= 5"),
-    "a limit": ("AtRest + (Distance * ShapeHigh)", "AtRest + (Distance * ShapeLow)"),
+    "a tick of a stop": ("PieceTick >= StopLengths", "PieceTick > StopLengths"),
+    "a limit": ("AtRest + (Distance * ShapeLow)", "AtRest + (Distance * ShapeHigh)"),
     "an edge": ("Execute AND (NOT Executed)", "Execute"),
 }
 
