@@ -20,7 +20,8 @@ from swayless.codegen.pin import Pin, pin
 from swayless.codegen.provenance import comment_text
 from swayless.codegen.st_types import StTypes
 from swayless.controller.adaptive import AdaptiveSettings, AdaptiveStatus, explain_adaptive
-from swayless.controller.adaptive.information import ANCHOR, LEAST_DETERMINANT, NEWTON_STEPS
+from swayless.controller.adaptive.information import LEAST_DETERMINANT, NEWTON_STEPS
+from swayless.controller.adaptive.lattice import Lattice
 from swayless.controller.adaptive.learner import (
     CONVERGED_WITHIN,
     MISFIT_FACTOR,
@@ -28,6 +29,7 @@ from swayless.controller.adaptive.learner import (
     NOISE_FACTOR,
     PAST_WINDOWS,
     RECENT,
+    ROUGHNESS,
     SIGNIFICANCE,
     WHITE_AT_FIRST,
     dead_zone_sum,
@@ -158,7 +160,7 @@ class AdaptiveModel:
     def constants(self) -> tuple[RealConstant, ...]:
         """Constants of the number type; the text has no C suffix."""
         settings = self.settings
-        first = first_coefficients(settings.number)
+        first, lattice = first_coefficients(settings), Lattice(settings)
         values = (
             ("MAX_COMMAND", "MaxCommand", settings.max_command, "largest command"),
             (
@@ -168,7 +170,12 @@ class AdaptiveModel:
                 "largest reading",
             ),
             ("PER_SCALE", "PerScale", 1.0 / settings.vibration_scale, "brings a reading to order 1"),
-            ("PEAK_FACTOR", "PeakFactor", settings.peak_factor, "largest absolute sum of coefficients"),
+            (
+                "MOST_NEGATIVE",
+                "MostNegative",
+                lattice.most_negative,
+                "largest sum of negative coefficients; positive ones sum to 1 more",
+            ),
             (
                 "DEAD_ZONE",
                 "DeadZone",
@@ -204,15 +211,21 @@ class AdaptiveModel:
                 "windows like the present one that the past is worth",
             ),
             (
+                "ROUGHNESS",
+                "Roughness",
+                ROUGHNESS,
+                "power of rounding by energy around coefficients that misfit",
+            ),
+            (
                 "CONVERGED",
                 "ConvergedWithin",
                 CONVERGED_WITHIN,
                 "largest change of a coefficient that has converged",
             ),
-            ("ANCHOR", "LatticeAnchor", ANCHOR, "rounds a coefficient to the lattice"),
+            ("ANCHOR", "LatticeAnchor", lattice.anchor, "rounds a coefficient to the lattice"),
             ("WINDOW", "WindowSamples", float(settings.window_ticks), "samples of a window"),
-            ("FIRST_OUTER", "FirstOuter", first[0], "first and second coefficient at first"),
-            ("FIRST_LAST", "FirstLast", first[2], "the third, which takes the rest"),
+            ("FIRST_OUTER", "FirstOuter", first[0], "first and last coefficient at first"),
+            ("FIRST_MIDDLE", "FirstMiddle", first[1], "the middle one, which takes the rest"),
         )
         scalar, number = settings.number.scalar, settings.number
         return tuple(

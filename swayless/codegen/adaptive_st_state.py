@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swayless.codegen.st_types import Variable
 
-SUMS = ("Uu", "Uw", "Ww", "Vu", "Vw", "Vv")
+SUMS = ("Ee", "Eu", "Ew", "Uu", "Uw", "Ww")
 
 ST_WINDOW_SUMS = tuple(f"Window{name}" for name in SUMS)
 """Sums of the window, as in the C structure."""
@@ -13,12 +13,12 @@ ST_FIRST_SUMS = tuple(
     zip(
         (f"Past{name}" for name in SUMS),
         (
+            "(((Learned0 * Learned0) + (Learned1 * Learned1)) + (Learned2 * Learned2)) * WhiteAtFirst",
+            "(Learned0 - Learned1) * WhiteAtFirst",
+            "(Learned2 - Learned1) * WhiteAtFirst",
             "WhiteAtFirst + WhiteAtFirst",
             "WhiteAtFirst",
             "WhiteAtFirst + WhiteAtFirst",
-            "-WhiteAtFirst",
-            "-WhiteAtFirst",
-            "WhiteAtFirst",
         ),
         strict=True,
     )
@@ -34,6 +34,10 @@ _SCRATCH = (
     "Wanted",
     "DiffU",
     "DiffW",
+    "LeftNow",
+    "PlainEe",
+    "PlainEu",
+    "PlainEw",
     "Energy",
     "FirstSum",
     "LastSum",
@@ -45,28 +49,27 @@ _SCRATCH = (
     "NewtonValue",
     "NewtonSlope",
     "Weight",
-    "Squares",
-    "Mixed",
-    "LeftNow",
     "Size",
     "Allowed",
     "Excess",
+    "Rounding",
     "PastEnergy",
     "Product",
     "Found0",
     "Found1",
     "Found2",
+    "Negative",
 )
 
 ST_REALS = (
+    _real("Learned0", "coefficient learned", "FirstOuter"),
+    _real("Learned1", "coefficient learned", "FirstMiddle"),
+    _real("Learned2", "coefficient learned", "FirstOuter"),
+    _real("Used0", "coefficient in use", "FirstOuter"),
+    _real("Used1", "coefficient in use", "FirstMiddle"),
+    _real("Used2", "coefficient in use", "FirstOuter"),
     *(_real(name, "sum over the window", "0.0") for name in ST_WINDOW_SUMS),
     *(_real(name, "sum of all that was learned", first) for name, first in ST_FIRST_SUMS),
-    _real("Learned0", "coefficient learned", "FirstOuter"),
-    _real("Learned1", "coefficient learned", "FirstOuter"),
-    _real("Learned2", "coefficient learned", "FirstLast"),
-    _real("Used0", "coefficient in use", "FirstOuter"),
-    _real("Used1", "coefficient in use", "FirstOuter"),
-    _real("Used2", "coefficient in use", "FirstLast"),
     _real("HeldCommand", "last valid command", "0.0"),
     _real("HeldVibration", "last valid reading, scaled", "0.0"),
     _real("LeftRecently", "left by the coefficients, over recent windows", "0.0"),
@@ -96,9 +99,22 @@ ST_FLAGS = (
     Variable("IsFrozen", "BOOL", "as the output", st_reset="FALSE"),
     Variable("Again", "BOOL", "learning again", st_reset="FALSE"),
     Variable("Refused", "BOOL", "the last set was refused", st_reset="FALSE"),
+    Variable("Rough", "BOOL", "the last window was summed up around a misfit", st_reset="FALSE"),
+    Variable("Fresh", "BOOL", "the window holds beginnings of rests, nothing else", st_reset="FALSE"),
     *(
         Variable(name, "BOOL", "intermediate result of one call")
-        for name in ("InRange", "Settled", "Sampled", "Complete", "Teaches", "Steady")
+        for name in (
+            "InRange",
+            "Drop",
+            "Settled",
+            "Shape",
+            "Sampled",
+            "Complete",
+            "Teaches",
+            "WasRough",
+            "Tells",
+            "Steady",
+        )
     ),
 )
 """Flags."""

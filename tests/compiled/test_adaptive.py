@@ -52,7 +52,7 @@ def test_the_stimuli_reach_every_status_bit():
 def test_a_wrong_sign_is_found():
     model = model_of(SMALL, "double")
     (file,) = generate_adaptive(model, "st")
-    wrong = dataclasses.replace(file, text=file.text.replace("PastVu + PastVw", "PastVu - PastVw"))
+    wrong = dataclasses.replace(file, text=file.text.replace("Shaping AND Fresh", "Shaping"))
     verdicts = list(verify_adaptive(model, st_files=[wrong]))
     assert any(not each.comparison.is_equal for each in verdicts)
 

@@ -1,9 +1,12 @@
 """What has been learned: six sums, and the coefficients that leave least of the vibration they sum up.
 
 Eqs 13-16 keep P, the inverse of a matrix that is all but singular once the vibration is understood. Here the
-constraint is solved for the middle coefficient first: c1 = 1 - c0 - c2, so that what is left of a sample is
-v1 + c0 u + c2 w with u = v0 - v1, w = v2 - v1. The matrix of these two unknowns is well conditioned, and the
-coefficients are those of eq 16 (decision 27). Not for: when to learn.
+constraint is solved for the middle coefficient first: c1 = 1 - c0 - c2, so that coefficients leave
+e = v1 + c0 u + c2 w of a sample, with u = v0 - v1, w = v2 - v1. What is summed up is e, and what is found is
+a correction of the coefficients that made it: right to rounding of the correction, not of the vibration. The
+matrix of the two unknowns is well conditioned, and the coefficients are those of eq 16 (decision 27).
+
+Not for: when to learn.
 """
 
 from __future__ import annotations
@@ -19,38 +22,37 @@ LEAST_DETERMINANT = 2.0**-14
 NEWTON_STEPS = 8
 """After them the noise is right to rounding where a window teaches, and to 4 % where all is noise."""
 
-ANCHOR = 24.0
-"""Added and taken away again, it leaves whole multiples of 2**-48 in double, of 2**-19 in float."""
-
 
 class Information(NamedTuple):
-    """Sums over samples: of u u, u w, w w, v1 u, v1 w and v1 v1."""
+    """Sums of products of e, u and w over samples; with coefficients 0, 1, 0, e is v1 itself."""
 
+    ee: Any
+    eu: Any
+    ew: Any
     uu: Any
     uw: Any
     ww: Any
-    vu: Any
-    vw: Any
-    vv: Any
 
     @property
     def energy(self) -> Any:
-        """Sum of v0 v0 + v1 v1 + v2 v2."""
-        return (((3.0 * self.vv) + (2.0 * (self.vu + self.vw))) + self.uu) + self.ww
+        """Sum of v0 v0 + v1 v1 + v2 v2 of sums that are around 0, 1, 0."""
+        return (((3.0 * self.ee) + (2.0 * (self.eu + self.ew))) + self.uu) + self.ww
 
-    def with_sample(self, v0: Any, v1: Any, v2: Any) -> Information:
-        """Add one sample and those of one and two delays ago."""
+    def with_sample(self, coefficients: Coefficients, v0: Any, v1: Any, v2: Any) -> Information:
+        """Add what coefficients leave of one sample and those of one and two delays ago."""
+        c0, _, c2 = coefficients
         u, w = v0 - v1, v2 - v1
+        e = v1 + ((c0 * u) + (c2 * w))
         return Information(
+            self.ee + (e * e),
+            self.eu + (e * u),
+            self.ew + (e * w),
             self.uu + (u * u),
             self.uw + (u * w),
             self.ww + (w * w),
-            self.vu + (v1 * u),
-            self.vw + (v1 * w),
-            self.vv + (v1 * v1),
         )
 
-    def with_white(self, power: Any) -> Information:
+    def with_white(self, coefficients: Coefficients, power: Any) -> Information:
         """Add white noise of this power to each of the three samples; a negative power takes it away.
 
         With 1e-7 and no samples this is P(0) = 1e7 I: what coefficients of 1/3 come from.
@@ -58,33 +60,42 @@ class Information(NamedTuple):
         Examples
         --------
         >>> nothing = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        >>> [round(c, 12) for c in nothing.with_white(1e-7).fit()]
-        [0.333333333333, 0.333333333333, 0.333333333333]
+        >>> c0, c2 = nothing.with_white((0.0, 1.0, 0.0), 1e-7).correction()
+        >>> round(c0, 12), round(c2, 12)
+        (0.333333333333, 0.333333333333)
         """
+        c0, c1, c2 = coefficients
         twice = power + power
         return Information(
+            self.ee + (squared_size(coefficients) * power),
+            self.eu + ((c0 - c1) * power),
+            self.ew + ((c2 - c1) * power),
             self.uu + twice,
             self.uw + power,
             self.ww + twice,
-            self.vu - power,
-            self.vw - power,
-            self.vv + power,
         )
 
     def after(self, weight: Any, past: Information) -> Information:
         """Add what was known before, by a weight."""
         return Information(*((weight * old) + new for old, new in zip(past, self, strict=True)))
 
-    def left_by(self, coefficients: Coefficients) -> Any:
-        """Sum of squares that coefficients leave, eq 12; at least 0."""
-        c0, _, c2 = coefficients
-        squares = ((c0 * c0) * self.uu) + ((c2 * c2) * self.ww)
-        mixed = (((c0 * c2) * self.uw) + (c0 * self.vu)) + (c2 * self.vw)
-        left = (squares + (2.0 * mixed)) + self.vv
-        return left if left > 0.0 else 0.0 * self.vv
+    def moved(self, d0: Any, d2: Any) -> Information:
+        """Give the sums around other coefficients: d0 more of the first, d2 more of the last.
 
-    def fit(self) -> Coefficients | None:
-        """Find the coefficients of unit sum that leave least, eq 16; None if the samples do not tell.
+        Examples
+        --------
+        >>> nothing = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        >>> here = nothing.with_sample((0.25, 0.5, 0.25), 3.0, 1.0, 2.0)
+        >>> here.moved(0.5, -0.25) == nothing.with_sample((0.75, 0.25, 0.0), 3.0, 1.0, 2.0)
+        True
+        """
+        eu = (self.eu + (d0 * self.uu)) + (d2 * self.uw)
+        ew = (self.ew + (d0 * self.uw)) + (d2 * self.ww)
+        ee = ((self.ee + (d0 * self.eu)) + (d2 * self.ew)) + ((d0 * eu) + (d2 * ew))
+        return Information(ee, eu, ew, self.uu, self.uw, self.ww)
+
+    def correction(self) -> tuple[Any, Any] | None:
+        """Find what to add to the first and last coefficient to leave least; None if the samples do not tell.
 
         References
         ----------
@@ -95,9 +106,9 @@ class Information(NamedTuple):
         determinant = product - (self.uw * self.uw)
         if not (self.uu > 0.0 and self.ww > 0.0 and determinant > LEAST_DETERMINANT * product):
             return None
-        c0 = ((self.uw * self.vw) - (self.ww * self.vu)) / determinant
-        c2 = ((self.uw * self.vu) - (self.uu * self.vw)) / determinant
-        return c0, 1.0 - (c0 + c2), c2
+        d0 = ((self.uw * self.ew) - (self.ww * self.eu)) / determinant
+        d2 = ((self.uw * self.eu) - (self.uu * self.ew)) / determinant
+        return d0, d2
 
 
 def squared_size(coefficients: Coefficients) -> Any:
@@ -106,45 +117,27 @@ def squared_size(coefficients: Coefficients) -> Any:
     return ((c0 * c0) + (c1 * c1)) + (c2 * c2)
 
 
-def absolute_sum(coefficients: Coefficients) -> Any:
-    """Sum of absolute amplitudes: the peak factor."""
-    c0, c1, c2 = coefficients
-    return (abs(c0) + abs(c1)) + abs(c2)
-
-
-def on_lattice(coefficients: Coefficients) -> Coefficients:
-    """Round amplitudes to a lattice on which every sum is exact; the last takes the rest to exactly 1.
-
-    Parameters
-    ----------
-    coefficients : tuple of three float
-        Absolute sum at most 8 or thereabouts.
-
-    Examples
-    --------
-    >>> c0, c1, c2 = on_lattice((0.1, 0.7, 0.2))
-    >>> c0 + c1 + c2 == c2 + c1 + c0 == 1.0
-    True
-    """
-    c0, c1, _ = coefficients
-    c0, c1 = (c0 + ANCHOR) - ANCHOR, (c1 + ANCHOR) - ANCHOR
-    return c0, c1, 1.0 - (c0 + c1)
-
-
-def noise_power(window: Information) -> Any:
+def noise_power(around: Information, plain: Information) -> Any:
     """Sum of squares of the white noise in each of the three samples of a window.
 
     A vibration of one mode fills two dimensions of three: what is in the third is noise, the least eigenvalue
-    of the samples' matrix. Newton's method on the characteristic polynomial comes to it from below.
+    of the samples' matrix. Newton's method on the characteristic polynomial comes to it from below. The
+    determinant is the same around any coefficients, and the more exact the better they fit.
+
+    Parameters
+    ----------
+    around, plain : Information
+        The window, around the coefficients learned and around 0, 1, 0.
 
     Examples
     --------
-    >>> nothing = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    >>> window = nothing.with_sample(1.0, 0.0, -1.0).with_sample(0.0, 2.0, 0.0)
-    >>> noise_power(window), round(noise_power(window.with_white(0.5)), 12)
+    >>> nothing, middle = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+    >>> window = nothing.with_sample(middle, 1.0, 0.0, -1.0).with_sample(middle, 0.0, 2.0, 0.0)
+    >>> noisy = window.with_white(middle, 0.5)
+    >>> noise_power(window, window), round(noise_power(noisy, noisy), 12)
     (0.0, 0.5)
     """
-    trace, minors, determinant = _invariants(window)
+    trace, minors, determinant = plain.energy, _principal_minors(plain), _determinant(around)
     noise = trace - trace
     for _ in range(NEWTON_STEPS):
         value = (((noise - trace) * noise) + minors) * noise - determinant
@@ -154,15 +147,16 @@ def noise_power(window: Information) -> Any:
     return noise
 
 
-def _invariants(window: Information) -> tuple[Any, Any, Any]:
-    """Trace, sum of the principal minors and determinant of the sums of v v'."""
-    uu, uw, ww, vu, vw, vv = window
-    trace = window.energy
+def _principal_minors(plain: Information) -> Any:
+    """Sum of the principal minors of the sums of v v'."""
+    vv, vu, vw, uu, uw, ww = plain
     first, last = (vv + (vu + vu)) + uu, (vv + (vw + vw)) + ww
     across = ((vv + vu) + vw) + uw
     middle = ((uu * vv) - (vu * vu)) + ((ww * vv) - (vw * vw))
-    minors = middle + ((first * last) - (across * across))
-    determinant = ((vv * ((uu * ww) - (uw * uw))) - (vu * ((vu * ww) - (uw * vw)))) + (
-        vw * ((vu * uw) - (uu * vw))
-    )
-    return trace, minors, determinant
+    return middle + ((first * last) - (across * across))
+
+
+def _determinant(sums: Information) -> Any:
+    """Give the determinant of the sums: the same around any coefficients, which only shear v0, v1 and v2."""
+    ee, eu, ew, uu, uw, ww = sums
+    return ((ee * ((uu * ww) - (uw * uw))) - (eu * ((eu * ww) - (uw * ew)))) + (ew * ((eu * uw) - (uu * ew)))

@@ -11,13 +11,11 @@ from typing import Any
 from swayless.controller.adaptive.information import (
     Coefficients,
     Information,
-    absolute_sum,
     noise_power,
-    on_lattice,
     squared_size,
 )
+from swayless.controller.adaptive.lattice import Lattice
 from swayless.controller.adaptive.settings import AdaptiveSettings
-from swayless.controller.number import NumberType
 
 WHITE_AT_FIRST = 1e-7
 """P(0) = 1e7 I."""
@@ -34,6 +32,9 @@ MISFIT_FACTOR, MISFIT_RATIO = 4.0, 1e-4
 RECENT, SIGNIFICANCE = 7.0 / 8.0, 32.0
 """Weight of the past in the slower test of fit, and twice the square of its four standard deviations."""
 
+ROUGHNESS = 1e-11
+"""Power, by energy, of the rounding in a window that was summed up around coefficients that do not fit."""
+
 CONVERGED_WITHIN = 0.01
 """A set that changes by no more in a window has converged."""
 
@@ -43,10 +44,10 @@ def dead_zone_sum(settings: AdaptiveSettings) -> float:
     return 3.0 * settings.window_ticks * settings.dead_zone_ratio**2
 
 
-def first_coefficients(number: NumberType) -> Coefficients:
+def first_coefficients(settings: AdaptiveSettings) -> Coefficients:
     """1/3 each, on the lattice of the number type."""
-    third = number.scalar(1) / 3.0
-    return on_lattice((third, third, third))
+    third = settings.number.scalar(1) / 3.0
+    return Lattice(settings).rounded(third, third)
 
 
 class Learner:
@@ -61,22 +62,36 @@ class Learner:
     def __init__(self, settings: AdaptiveSettings) -> None:
         scalar = settings.number.scalar
         self._window_ticks = settings.window_ticks
-        self._peak_factor = scalar(settings.peak_factor)
+        self._lattice = Lattice(settings)
         self._dead_zone = scalar(dead_zone_sum(settings))
-        self._nothing = Information(*(scalar(0) for _ in range(6)))
-        self._at_first = self._nothing.with_white(scalar(WHITE_AT_FIRST))
+        self._white_at_first = scalar(WHITE_AT_FIRST)
         self._zero, self._one = scalar(0), scalar(1)
-        self._window, self._past = self._nothing, self._at_first
-        self._ticks = 0
+        self.coefficients: Coefficients = first_coefficients(settings)
+        self._nothing = Information(*(scalar(0) for _ in range(6)))
+        self._window, self._ticks = self._nothing, 0
+        self._past = self._at_first()
         self._left: Any = self._zero
         self._noise: Any = self._zero
         self._samples: Any = self._zero
-        self.coefficients: Coefficients = first_coefficients(settings.number)
         self.has_learned = self.is_converged = self.is_frozen = False
         self.learns_again = self.was_refused = False
+        self._follows_a_move = self._is_rough = False
 
-    def pause(self) -> None:
-        """Drop the samples of a window that will not be completed."""
+    def begin_rest(self) -> None:
+        """Take a change of the command: what follows tells what this move leaves.
+
+        A window may go on from rest to rest, as long as it holds beginnings of rests and nothing else.
+        """
+        if not self._follows_a_move:
+            self._drop()
+        self._follows_a_move = True
+
+    def interrupt(self) -> None:
+        """Take that samples are missing, or that what shapes the moves is another: the window is dropped."""
+        self._drop()
+        self._follows_a_move = False
+
+    def _drop(self) -> None:
         self._window, self._ticks = self._nothing, 0
 
     def learn(self, v0: Any, v1: Any, v2: Any, *, in_use: bool) -> None:
@@ -89,41 +104,54 @@ class Learner:
         in_use : bool
             Whether the coefficients shape the command.
         """
-        self._window = self._window.with_sample(v0, v1, v2)
+        self._window = self._window.with_sample(self.coefficients, v0, v1, v2)
         self._ticks += 1
         if self._ticks == self._window_ticks:
             self._judge(self._window, in_use)
-            self.pause()
+            self.interrupt()
 
     def _judge(self, window: Information, in_use: bool) -> None:
         """Learn from a complete window, or find that there is nothing to learn from."""
-        energy, noise = window.energy, noise_power(window)
+        plain = self._plain(window)
+        energy, noise = plain.energy, noise_power(window, plain)
         teaches = energy > self._dead_zone and energy > (3.0 * NOISE_FACTOR) * noise
         self.is_frozen = not teaches
         if teaches:
             weight = self._past_weight(window, energy, noise)
-            self._past = window.with_white(-noise).after(weight, self._past)
-            self._adopt(self._past.fit())
-        elif in_use:
-            self.is_converged = True
+            self._past = window.with_white(self.coefficients, -noise).after(weight, self._past)
+            self._adopt()
+        elif in_use and self._follows_a_move:
+            self.is_converged, self.learns_again, self.was_refused = True, False, False
+
+    def _plain(self, sums: Information) -> Information:
+        """Give the sums of products of v1 itself in the place of what the coefficients leave."""
+        c0, _, c2 = self.coefficients
+        return sums.moved(-c0, -c2)
+
+    def _at_first(self) -> Information:
+        """P(0)."""
+        return self._nothing.with_white(self.coefficients, self._white_at_first)
 
     def _past_weight(self, window: Information, energy: Any, noise: Any) -> Any:
         """How much the past still counts: less if the coefficients do not fit."""
-        windows = self._windows_that_count(window, energy, noise) * energy
-        past = self._past.energy
+        was_rough = self._is_rough
+        windows = self._windows_that_count(window.ee, energy, noise) * energy
+        if was_rough:
+            windows = min(windows, noise / ROUGHNESS)
+        past = self._plain(self._past).energy
         return windows / past if past > windows else self._one
 
-    def _windows_that_count(self, window: Information, energy: Any, noise: Any) -> Any:
+    def _windows_that_count(self, left: Any, energy: Any, noise: Any) -> Any:
         """How many windows like this one the past is worth: none, one or many."""
-        self.learns_again = False
+        self.learns_again, self._is_rough = False, not self.has_learned
         if not self.has_learned:
             return PAST_WINDOWS
-        left, size = window.left_by(self.coefficients), squared_size(self.coefficients)
+        size = squared_size(self.coefficients)
         allowed = MISFIT_RATIO * energy
         if left > ((MISFIT_FACTOR * noise) * size) + allowed:
-            self.learns_again = True
+            self.learns_again = self._is_rough = True
             self._forget_misfit()
-            self._past = self._at_first
+            self._past = self._at_first()
             return 1.0
         self.learns_again = self._misfits_slowly((left - allowed) / size, noise)
         return 1.0 if self.learns_again else PAST_WINDOWS
@@ -141,15 +169,17 @@ class Learner:
     def _forget_misfit(self) -> None:
         self._left = self._noise = self._samples = self._zero
 
-    def _adopt(self, found: Coefficients | None) -> None:
+    def _adopt(self) -> None:
         """Take new coefficients unless they ask too much of the drive."""
-        self.was_refused = found is None or not absolute_sum(found) <= 2.0 * self._peak_factor
-        if found is not None and not self.was_refused:
-            found = on_lattice(found)
-            self.was_refused = bool(absolute_sum(found) > self._peak_factor)
+        c0, c1, c2 = self.coefficients
+        correction = self._past.correction()
+        found = None if correction is None else self._lattice.rounded(c0 + correction[0], c2 + correction[1])
+        self.was_refused = found is None or not self._lattice.allows(found)
         if found is None or self.was_refused:
             self.is_converged = False
             return
-        change = max(abs(new - old) for new, old in zip(found, self.coefficients, strict=True))
+        d0, d1, d2 = found[0] - c0, found[1] - c1, found[2] - c2
+        change = max(abs(d0), abs(d1), abs(d2))
         self.is_converged = bool(self.has_learned and not self.learns_again and change <= CONVERGED_WITHIN)
+        self._past = self._past.moved(d0, d2)
         self.coefficients, self.has_learned = found, True

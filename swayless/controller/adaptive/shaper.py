@@ -68,8 +68,8 @@ class AdaptiveShaper:
         self._read_command(pins.command)
         self._read_vibration(pins.vibration)
         first, second = self._advance()
-        reference = self._shape(pins.enable, first, second)
         adapting = self._learn(pins.enable, first, second)
+        reference = self._shape(pins.enable, first, second)
         learner = self._learner
         self._status |= (
             (_ADAPTING if adapting else 0)
@@ -98,6 +98,7 @@ class AdaptiveShaper:
             self._moved_ticks = min(self._moved_ticks + (self._moved_ticks > 0), settings.cycle_ticks)
         else:
             self._rest_ticks = self._quiet_ticks = 0
+            self._learner.begin_rest()
             self._moved_ticks = min(self._moved_ticks + 1, settings.cycle_ticks)
         self._command = command
 
@@ -107,6 +108,7 @@ class AdaptiveShaper:
             self._vibration = vibration * self._per_scale
         else:
             self._quiet_ticks = 0
+            self._learner.interrupt()
             self._status |= _VIBRATION
 
     def _advance(self) -> tuple[int, int]:
@@ -118,25 +120,28 @@ class AdaptiveShaper:
         first = head - delay if head >= delay else head + (length - delay)
         return first, 0 if head >= length - 1 else head + 1
 
+    def _learn(self, enable: bool, first: int, second: int) -> bool:
+        """Learn from this tick if all samples of two delays are free vibration."""
+        if not enable:
+            self._learner.interrupt()
+        elif self._quiet_ticks >= self._settings.quiet_ticks:
+            samples = self._vibrations
+            self._learner.learn(self._vibration, samples[first], samples[second], in_use=self._is_shaping)
+            return True
+        return False
+
     def _shape(self, enable: bool, first: int, second: int) -> Any:
         """Give the reference; coefficients change where they do not matter."""
         is_settled = self._rest_ticks >= self._settings.settled_ticks
         if is_settled:
             is_past_cycle = self._moved_ticks >= self._settings.cycle_ticks
-            self._is_shaping = enable and self._learner.has_learned and is_past_cycle
-            self._used = self._learner.coefficients
+            is_shaping = enable and self._learner.has_learned and is_past_cycle
+            if is_shaping != self._is_shaping:
+                self._learner.interrupt()
+            self._is_shaping, self._used = is_shaping, self._learner.coefficients
         if not self._is_shaping:
             self._status |= _UNSHAPED
         if is_settled or not self._is_shaping:
             return self._command
         c0, c1, c2 = self._used
         return ((c0 * self._command) + (c1 * self._commands[first])) + (c2 * self._commands[second])
-
-    def _learn(self, enable: bool, first: int, second: int) -> bool:
-        """Learn from this tick if all samples of two delays are free vibration."""
-        if not enable or self._quiet_ticks < self._settings.quiet_ticks:
-            self._learner.pause()
-            return False
-        samples = self._vibrations
-        self._learner.learn(self._vibration, samples[first], samples[second], in_use=self._is_shaping)
-        return True

@@ -44,12 +44,13 @@ class Experiment:
     number: str = "double"
     max_reference: float = 8.0
     seed: int = 1
+    vibration_scale: float = 1.0
     inputs: list[tuple[Any, Any]] = field(default_factory=list)
     coefficients: list[NDArray[np.float64]] = field(default_factory=list)
     status: list[int] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.scale = free_amplitude(self.mode, self.tick_s)
+        self.scale = self.vibration_scale * free_amplitude(self.mode, self.tick_s)
         self.cycle = trapezoids(self.tick_s).tolist()
         self.settings = AdaptiveSettings(
             self.delay_ticks,

@@ -14,7 +14,7 @@ from swayless.controller.adaptive.information import Information
 from swayless.plant import Mode
 from tests.unit.controller.adaptive_moves import Experiment
 
-NOTHING = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NOTHING, MIDDLE = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
 
 def rls(samples, forgetting):
@@ -29,49 +29,72 @@ def rls(samples, forgetting):
         return [float(g / mpmath.fsum(gamma)) for g in gamma]
 
 
+def corrected(known, around):
+    """Coefficients that leave least."""
+    d0, d2 = known.correction()
+    return [around[0] + d0, around[1] - (d0 + d2), around[2] + d2]
+
+
 @settings(derandomize=True, deadline=None, max_examples=25)
 @given(
-    noise=st.floats(0.0, 0.5), phase=st.floats(0.2, 3.0), decay=st.floats(0.9, 1.0), seed=st.integers(0, 99)
+    noise=st.floats(0.0, 0.5),
+    phase=st.floats(0.2, 3.0),
+    decay=st.floats(0.9, 1.0),
+    seed=st.integers(0, 99),
+    around=st.sampled_from([MIDDLE, (1 / 3, 1 / 3, 1 / 3), (2.0, -3.0, 2.0)]),
 )
-def test_eqs_13_to_16_are_the_coefficients_that_fit_the_six_sums(noise, phase, decay, seed):
+def test_eqs_13_to_16_are_the_coefficients_that_fit_the_six_sums(noise, phase, decay, seed, around):
     random = np.random.default_rng(seed)
     swing = decay ** np.arange(60) * np.cos(phase * np.arange(60)) + noise * random.standard_normal(60)
     samples = np.column_stack([swing[2:], swing[1:-1], swing[:-2]])
-    known = NOTHING.with_white(1e-7)
+    known = NOTHING.with_white(around, 1e-7)
     for sample in samples.tolist():
-        known = known.with_sample(*sample)
+        known = known.with_sample(around, *sample)
     # The two unknowns are conditioned like (1 - cos) / (1 + cos) at worst: 200 here.
-    assert known.fit() == pytest.approx(rls(samples.tolist(), 1), abs=1e-11)
+    assert corrected(known, around) == pytest.approx(rls(samples.tolist(), 1), abs=1e-11)
 
 
 def test_eqs_13_to_16_with_a_forgetting_factor_weigh_the_past_by_it():
     swing = np.cos(2.0 * np.arange(40)) + 0.1 * np.random.default_rng(1).standard_normal(40)
     samples = np.column_stack([swing[2:], swing[1:-1], swing[:-2]]).tolist()
-    known = NOTHING.with_white(1e-7)
+    known = NOTHING.with_white(MIDDLE, 1e-7)
     for sample in samples:
-        known = NOTHING.with_sample(*sample).after(0.9, known)
-    assert known.fit() == pytest.approx(rls(samples, mpmath.mpf(0.9)), abs=1e-12)
+        known = NOTHING.with_sample(MIDDLE, *sample).after(0.9, known)
+    assert corrected(known, MIDDLE) == pytest.approx(rls(samples, mpmath.mpf(0.9)), abs=1e-12)
 
 
-@pytest.mark.parametrize("delay_ticks", [7, 8, 10, 15, 20, 25, 28, 34, 40, 45, 75])
-def test_without_noise_the_coefficients_are_those_of_eq_4_for_any_delay(delay_ticks):
-    experiment = Experiment(delay_ticks)
-    experiment.run(3)
-    assert experiment.error() < 1e-8  # asked is 1e-6; P(0) leaves 1e-7 / (energy (1 - cos)^2)
+@pytest.mark.parametrize("delay_ticks", [7, 8, 10, 20, 25, 28, 34, 45, 75])
+@pytest.mark.parametrize("number", ["double", "float"])
+def test_without_noise_the_coefficients_are_those_of_eq_4_for_any_delay(delay_ticks, number):
+    experiment = Experiment(delay_ticks, number=number)
+    experiment.run(1)
+    # Asked is 1e-6. In float a step of the lattice is 4.8e-7, and the middle one takes up to a whole step.
+    assert experiment.error() < (1e-12 if number == "double" else 8e-7)
 
 
-@pytest.mark.parametrize("delay_ticks", [10, 25, 40])
-def test_in_float_they_are_as_good_as_the_lattice_of_2_to_the_minus_19(delay_ticks):
-    experiment = Experiment(delay_ticks, number="float")
-    experiment.run(3)
-    assert experiment.error() < 8e-6  # four units, of which the last amplitude takes up to two
+@settings(derandomize=True, deadline=None, max_examples=12)
+@given(
+    cosine=st.floats(-0.95, 0.77),
+    turn=st.booleans(),
+    damping_ratio=st.floats(0.0, 0.03),
+    delay_ticks=st.sampled_from([9, 16, 31]),
+    scale=st.floats(0.5, 2.0),
+)
+def test_in_float_they_are_within_1e_6_wherever_the_drive_allows_them(
+    cosine, turn, damping_ratio, delay_ticks, scale
+):
+    phase = 2.0 * math.pi - math.acos(cosine) if turn else math.acos(cosine)
+    mode = Mode(phase / (2.0 * math.pi * delay_ticks * 0.001), damping_ratio)
+    experiment = Experiment(delay_ticks, mode=mode, number="float", vibration_scale=scale)
+    experiment.run(1)
+    assert experiment.error() < 1e-6
 
 
 @pytest.mark.parametrize("damping_ratio", [0.0, 0.002, 0.05])
 def test_without_noise_they_are_those_of_eq_4_for_any_damping(damping_ratio):
     experiment = Experiment(mode=Mode(16.0, damping_ratio))
-    experiment.run(3)
-    assert experiment.error() < 1e-8
+    experiment.run(1)
+    assert experiment.error() < 1e-12
 
 
 @pytest.mark.parametrize(("delay_ticks", "number"), [(3, "double"), (6, "double"), (6, "float")])

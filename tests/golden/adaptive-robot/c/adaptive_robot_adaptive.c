@@ -26,7 +26,7 @@ typedef char adaptive_robot_adaptive_ram_check[(sizeof(adaptive_robot_adaptive_t
 static const adaptive_robot_number_t adaptive_robot_MAX_COMMAND = 1.0; /* largest command */
 static const adaptive_robot_number_t adaptive_robot_MAX_VIBRATION = 6000.0; /* largest reading */
 static const adaptive_robot_number_t adaptive_robot_PER_SCALE = 0.016666666666666666; /* brings a reading to order 1 */
-static const adaptive_robot_number_t adaptive_robot_PEAK_FACTOR = 1.0; /* largest absolute sum of coefficients */
+static const adaptive_robot_number_t adaptive_robot_MOST_NEGATIVE = 0.0; /* largest sum of negative coefficients; positive ones sum to 1 more */
 static const adaptive_robot_number_t adaptive_robot_DEAD_ZONE = 0.0006; /* sum of squares of a window that teaches nothing */
 static const adaptive_robot_number_t adaptive_robot_WHITE_AT_FIRST = 1.0e-07; /* inverse of P(0) */
 static const adaptive_robot_number_t adaptive_robot_LEAST_DETERMINANT = 6.103515625e-05; /* below it samples do not tell, relative */
@@ -36,11 +36,12 @@ static const adaptive_robot_number_t adaptive_robot_MISFIT_RATIO = 0.0001; /* an
 static const adaptive_robot_number_t adaptive_robot_RECENT = 0.875; /* weight of the past in the slower test */
 static const adaptive_robot_number_t adaptive_robot_SIGNIFICANCE = 32.0; /* of the slower test */
 static const adaptive_robot_number_t adaptive_robot_PAST_WINDOWS = 63.0; /* windows like the present one that the past is worth */
+static const adaptive_robot_number_t adaptive_robot_ROUGHNESS = 1.0e-11; /* power of rounding by energy around coefficients that misfit */
 static const adaptive_robot_number_t adaptive_robot_CONVERGED = 0.01; /* largest change of a coefficient that has converged */
-static const adaptive_robot_number_t adaptive_robot_ANCHOR = 24.0; /* rounds a coefficient to the lattice */
+static const adaptive_robot_number_t adaptive_robot_ANCHOR = 1.0; /* rounds a coefficient to the lattice */
 static const adaptive_robot_number_t adaptive_robot_WINDOW = 200.0; /* samples of a window */
-static const adaptive_robot_number_t adaptive_robot_FIRST_OUTER = 0.33333333333333215; /* first and second coefficient at first */
-static const adaptive_robot_number_t adaptive_robot_FIRST_LAST = 0.3333333333333357; /* the third, which takes the rest */
+static const adaptive_robot_number_t adaptive_robot_FIRST_OUTER = 0.33333333333333326; /* first and last coefficient at first */
+static const adaptive_robot_number_t adaptive_robot_FIRST_MIDDLE = 0.3333333333333335; /* the middle one, which takes the rest */
 
 static const adaptive_robot_adaptive_sums_t adaptive_robot_NOTHING = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
 
@@ -49,73 +50,101 @@ static adaptive_robot_number_t adaptive_robot_magnitude_of(adaptive_robot_number
     return (value < 0.0) ? -value : value;
 }
 
+/* Sum of squares: what white noise of power 1 is made by these coefficients. */
+static adaptive_robot_number_t adaptive_robot_squared_size(const adaptive_robot_number_t c[3])
+{
+    return ((c[0] * c[0]) + (c[1] * c[1])) + (c[2] * c[2]);
+}
+
 /* Add white noise of this power to each of the three samples; a negative power takes it away. */
-static adaptive_robot_adaptive_sums_t adaptive_robot_with_white(const adaptive_robot_adaptive_sums_t *sums, adaptive_robot_number_t power)
+static adaptive_robot_adaptive_sums_t adaptive_robot_with_white(const adaptive_robot_adaptive_sums_t *sums, const adaptive_robot_number_t c[3],
+    adaptive_robot_number_t power)
 {
     adaptive_robot_adaptive_sums_t all = *sums;
     const adaptive_robot_number_t twice = power + power;
+    all.ee = sums->ee + (adaptive_robot_squared_size(c) * power);
+    all.eu = sums->eu + ((c[0] - c[1]) * power);
+    all.ew = sums->ew + ((c[2] - c[1]) * power);
     all.uu = sums->uu + twice;
     all.uw = sums->uw + power;
     all.ww = sums->ww + twice;
-    all.vu = sums->vu - power;
-    all.vw = sums->vw - power;
-    all.vv = sums->vv + power;
     return all;
 }
 
-static void adaptive_robot_add_sample(adaptive_robot_adaptive_sums_t *sums, adaptive_robot_number_t v0, adaptive_robot_number_t v1, adaptive_robot_number_t v2)
+/* Add what coefficients leave of one sample and those of one and two delays ago. */
+static void adaptive_robot_add_sample(adaptive_robot_adaptive_sums_t *sums, const adaptive_robot_number_t c[3],
+    adaptive_robot_number_t v0, adaptive_robot_number_t v1, adaptive_robot_number_t v2)
 {
     const adaptive_robot_number_t u = v0 - v1;
     const adaptive_robot_number_t w = v2 - v1;
+    const adaptive_robot_number_t e = v1 + ((c[0] * u) + (c[2] * w));
+    sums->ee = sums->ee + (e * e);
+    sums->eu = sums->eu + (e * u);
+    sums->ew = sums->ew + (e * w);
     sums->uu = sums->uu + (u * u);
     sums->uw = sums->uw + (u * w);
     sums->ww = sums->ww + (w * w);
-    sums->vu = sums->vu + (v1 * u);
-    sums->vw = sums->vw + (v1 * w);
-    sums->vv = sums->vv + (v1 * v1);
 }
 
-/* Sum of v0 v0 + v1 v1 + v2 v2. */
+/* Sums around other coefficients: d0 more of the first, d2 more of the last. */
+static adaptive_robot_adaptive_sums_t adaptive_robot_moved(const adaptive_robot_adaptive_sums_t *s, adaptive_robot_number_t d0, adaptive_robot_number_t d2)
+{
+    adaptive_robot_adaptive_sums_t all = *s;
+    all.eu = (s->eu + (d0 * s->uu)) + (d2 * s->uw);
+    all.ew = (s->ew + (d0 * s->uw)) + (d2 * s->ww);
+    all.ee = ((s->ee + (d0 * s->eu)) + (d2 * s->ew)) + ((d0 * all.eu) + (d2 * all.ew));
+    return all;
+}
+
+/* Sums of products of v1 itself in the place of what the coefficients leave. */
+static adaptive_robot_adaptive_sums_t adaptive_robot_plain(const adaptive_robot_adaptive_sums_t *s, const adaptive_robot_number_t c[3])
+{
+    return adaptive_robot_moved(s, -c[0], -c[2]);
+}
+
+/* Sum of v0 v0 + v1 v1 + v2 v2 of plain sums. */
 static adaptive_robot_number_t adaptive_robot_energy_of(const adaptive_robot_adaptive_sums_t *s)
 {
-    return (((3.0 * s->vv) + (2.0 * (s->vu + s->vw))) + s->uu) + s->ww;
+    return (((3.0 * s->ee) + (2.0 * (s->eu + s->ew))) + s->uu) + s->ww;
 }
 
-/* Sum of squares that coefficients leave, eq 12. */
-static adaptive_robot_number_t adaptive_robot_left_by(const adaptive_robot_adaptive_sums_t *s, const adaptive_robot_number_t c[3])
-{
-    const adaptive_robot_number_t squares = ((c[0] * c[0]) * s->uu) + ((c[2] * c[2]) * s->ww);
-    const adaptive_robot_number_t mixed = (((c[0] * c[2]) * s->uw) + (c[0] * s->vu)) + (c[2] * s->vw);
-    const adaptive_robot_number_t left = (squares + (2.0 * mixed)) + s->vv;
-    return (left > 0.0) ? left : 0.0;
-}
-
-/* The coefficients of unit sum that leave least, eq 16; false if the samples do not tell. */
-static bool adaptive_robot_fit(const adaptive_robot_adaptive_sums_t *s, adaptive_robot_number_t c[3])
+/* What to add to the first and last coefficient to leave least, eq 16; false if the samples do not tell. */
+static bool adaptive_robot_correction(const adaptive_robot_adaptive_sums_t *s, adaptive_robot_number_t *d0, adaptive_robot_number_t *d2)
 {
     const adaptive_robot_number_t product = s->uu * s->ww;
     const adaptive_robot_number_t determinant = product - (s->uw * s->uw);
     const bool tells = (s->uu > 0.0) && (s->ww > 0.0)
         && (determinant > (adaptive_robot_LEAST_DETERMINANT * product));
     if (tells) {
-        c[0] = ((s->uw * s->vw) - (s->ww * s->vu)) / determinant;
-        c[2] = ((s->uw * s->vu) - (s->uu * s->vw)) / determinant;
-        c[1] = 1.0 - (c[0] + c[2]);
+        *d0 = ((s->uw * s->ew) - (s->ww * s->eu)) / determinant;
+        *d2 = ((s->uw * s->eu) - (s->uu * s->ew)) / determinant;
     }
     return tells;
 }
 
-/* The least eigenvalue of the matrix of the samples: what one vibration cannot explain. */
-static adaptive_robot_number_t adaptive_robot_noise_power(const adaptive_robot_adaptive_sums_t *s)
+/* Sum of the principal minors of the matrix of the samples, from plain sums. */
+static adaptive_robot_number_t adaptive_robot_principal_minors(const adaptive_robot_adaptive_sums_t *s)
 {
-    const adaptive_robot_number_t trace = adaptive_robot_energy_of(s);
-    const adaptive_robot_number_t first = (s->vv + (s->vu + s->vu)) + s->uu;
-    const adaptive_robot_number_t last = (s->vv + (s->vw + s->vw)) + s->ww;
-    const adaptive_robot_number_t across = ((s->vv + s->vu) + s->vw) + s->uw;
-    const adaptive_robot_number_t middle = ((s->uu * s->vv) - (s->vu * s->vu)) + ((s->ww * s->vv) - (s->vw * s->vw));
-    const adaptive_robot_number_t minors = middle + ((first * last) - (across * across));
-    const adaptive_robot_number_t determinant = ((s->vv * ((s->uu * s->ww) - (s->uw * s->uw)))
-        - (s->vu * ((s->vu * s->ww) - (s->uw * s->vw)))) + (s->vw * ((s->vu * s->uw) - (s->uu * s->vw)));
+    const adaptive_robot_number_t first = (s->ee + (s->eu + s->eu)) + s->uu;
+    const adaptive_robot_number_t last = (s->ee + (s->ew + s->ew)) + s->ww;
+    const adaptive_robot_number_t across = ((s->ee + s->eu) + s->ew) + s->uw;
+    const adaptive_robot_number_t middle = ((s->uu * s->ee) - (s->eu * s->eu)) + ((s->ww * s->ee) - (s->ew * s->ew));
+    return middle + ((first * last) - (across * across));
+}
+
+/* The determinant of that matrix: the same around any coefficients. */
+static adaptive_robot_number_t adaptive_robot_determinant(const adaptive_robot_adaptive_sums_t *s)
+{
+    return ((s->ee * ((s->uu * s->ww) - (s->uw * s->uw))) - (s->eu * ((s->eu * s->ww) - (s->uw * s->ew))))
+        + (s->ew * ((s->eu * s->uw) - (s->uu * s->ew)));
+}
+
+/* The least eigenvalue of that matrix, by Newton's method from below: what one vibration cannot explain. */
+static adaptive_robot_number_t adaptive_robot_noise_power(const adaptive_robot_adaptive_sums_t *around, const adaptive_robot_adaptive_sums_t *plain)
+{
+    const adaptive_robot_number_t trace = adaptive_robot_energy_of(plain);
+    const adaptive_robot_number_t minors = adaptive_robot_principal_minors(plain);
+    const adaptive_robot_number_t determinant = adaptive_robot_determinant(around);
     adaptive_robot_number_t noise = 0.0;
     uint32_t steps;
     for (steps = 0u; steps < 8u; ++steps) {
@@ -126,6 +155,20 @@ static adaptive_robot_number_t adaptive_robot_noise_power(const adaptive_robot_a
         }
     }
     return noise;
+}
+
+/* Drop the window: samples are missing, or what shapes the moves is another. */
+static void adaptive_robot_interrupt(adaptive_robot_adaptive_t *s)
+{
+    s->window = adaptive_robot_NOTHING;
+    s->window_ticks = 0u;
+    s->fresh = false;
+}
+
+/* Know nothing of the past: P(0). */
+static void adaptive_robot_forget_past(adaptive_robot_adaptive_t *s)
+{
+    s->past = adaptive_robot_with_white(&adaptive_robot_NOTHING, s->coefficient, adaptive_robot_WHITE_AT_FIRST);
 }
 
 static void adaptive_robot_forget_misfit(adaptive_robot_adaptive_t *s)
@@ -150,17 +193,18 @@ static bool adaptive_robot_misfits_slowly(adaptive_robot_adaptive_t *s, adaptive
 /* How many windows like this one the past is worth. */
 static adaptive_robot_number_t adaptive_robot_windows_that_count(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
 {
-    const adaptive_robot_number_t *c = s->coefficient;
     adaptive_robot_number_t windows = adaptive_robot_PAST_WINDOWS;
     s->again = false;
+    s->rough = !s->learned;
     if (s->learned) {
-        const adaptive_robot_number_t left = adaptive_robot_left_by(&s->window, c);
-        const adaptive_robot_number_t size = ((c[0] * c[0]) + (c[1] * c[1])) + (c[2] * c[2]);
+        const adaptive_robot_number_t left = s->window.ee;
+        const adaptive_robot_number_t size = adaptive_robot_squared_size(s->coefficient);
         const adaptive_robot_number_t allowed = adaptive_robot_MISFIT_RATIO * energy;
         if (left > (((adaptive_robot_MISFIT_FACTOR * noise) * size) + allowed)) {
             s->again = true;
+            s->rough = true;
             adaptive_robot_forget_misfit(s);
-            s->past = adaptive_robot_with_white(&adaptive_robot_NOTHING, adaptive_robot_WHITE_AT_FIRST);
+            adaptive_robot_forget_past(s);
         } else {
             s->again = adaptive_robot_misfits_slowly(s, (left - allowed) / size, noise);
         }
@@ -171,39 +215,59 @@ static adaptive_robot_number_t adaptive_robot_windows_that_count(adaptive_robot_
     return windows;
 }
 
-/* Round to the lattice on which sums are exact; the last takes the rest. */
-static void adaptive_robot_on_lattice(adaptive_robot_number_t c[3])
+/* How much the past still counts beside a window. */
+static adaptive_robot_number_t adaptive_robot_past_weight(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
 {
-    c[0] = (c[0] + adaptive_robot_ANCHOR) - adaptive_robot_ANCHOR;
-    c[1] = (c[1] + adaptive_robot_ANCHOR) - adaptive_robot_ANCHOR;
-    c[2] = 1.0 - (c[0] + c[1]);
+    const bool was_rough = s->rough;
+    const adaptive_robot_number_t rough = noise / adaptive_robot_ROUGHNESS;
+    adaptive_robot_number_t windows = adaptive_robot_windows_that_count(s, energy, noise) * energy;
+    adaptive_robot_adaptive_sums_t plain;
+    adaptive_robot_number_t past;
+    if (was_rough && (rough < windows)) {
+        windows = rough;
+    }
+    plain = adaptive_robot_plain(&s->past, s->coefficient);
+    past = adaptive_robot_energy_of(&plain);
+    return (past > windows) ? (windows / past) : 1.0;
 }
 
-static adaptive_robot_number_t adaptive_robot_absolute_sum(const adaptive_robot_number_t c[3])
+/* Round a value below the anchor to a multiple of the step there; others are such multiples. */
+static adaptive_robot_number_t adaptive_robot_rounded(adaptive_robot_number_t value)
 {
-    return (adaptive_robot_magnitude_of(c[0]) + adaptive_robot_magnitude_of(c[1])) + adaptive_robot_magnitude_of(c[2]);
+    adaptive_robot_number_t size = adaptive_robot_magnitude_of(value);
+    if (size < adaptive_robot_ANCHOR) {
+        size = (size + adaptive_robot_ANCHOR) - adaptive_robot_ANCHOR;
+    }
+    return (value < 0.0) ? -size : size;
 }
 
-/* Take new coefficients unless they ask too much of the drive. */
+static adaptive_robot_number_t adaptive_robot_below(adaptive_robot_number_t value)
+{
+    return (value < 0.0) ? -value : 0.0;
+}
+
+/* Correct the coefficients, unless that asks too much of the drive; the middle one takes the rest to exactly 1. */
 static void adaptive_robot_adopt(adaptive_robot_adaptive_t *s)
 {
-    adaptive_robot_number_t found[3] = { 0.0, 0.0, 0.0 };
-    adaptive_robot_number_t change = 0.0;
-    uint32_t n;
-    s->refused = !(adaptive_robot_fit(&s->past, found) && (adaptive_robot_absolute_sum(found) <= (2.0 * adaptive_robot_PEAK_FACTOR)));
-    if (!s->refused) {
-        adaptive_robot_on_lattice(found);
-        s->refused = adaptive_robot_absolute_sum(found) > adaptive_robot_PEAK_FACTOR;
-    }
+    adaptive_robot_number_t d0 = 0.0;
+    adaptive_robot_number_t d2 = 0.0;
+    const bool tells = adaptive_robot_correction(&s->past, &d0, &d2);
+    const adaptive_robot_number_t c0 = adaptive_robot_rounded(s->coefficient[0] + d0);
+    const adaptive_robot_number_t c2 = adaptive_robot_rounded(s->coefficient[2] + d2);
+    const adaptive_robot_number_t c1 = 1.0 - (c0 + c2);
+    s->refused = !(tells && (((adaptive_robot_below(c0) + adaptive_robot_below(c1)) + adaptive_robot_below(c2)) <= adaptive_robot_MOST_NEGATIVE));
     if (s->refused) {
         s->converged = false;
     } else {
-        for (n = 0u; n < 3u; ++n) {
-            const adaptive_robot_number_t moved = adaptive_robot_magnitude_of(found[n] - s->coefficient[n]);
-            change = (moved > change) ? moved : change;
-            s->coefficient[n] = found[n];
-        }
-        s->converged = s->learned && (!s->again) && (change <= adaptive_robot_CONVERGED);
+        const adaptive_robot_number_t d1 = c1 - s->coefficient[1];
+        d0 = c0 - s->coefficient[0];
+        d2 = c2 - s->coefficient[2];
+        s->converged = s->learned && (!s->again) && (adaptive_robot_magnitude_of(d0) <= adaptive_robot_CONVERGED)
+            && (adaptive_robot_magnitude_of(d1) <= adaptive_robot_CONVERGED) && (adaptive_robot_magnitude_of(d2) <= adaptive_robot_CONVERGED);
+        s->past = adaptive_robot_moved(&s->past, d0, d2);
+        s->coefficient[0] = c0;
+        s->coefficient[1] = c1;
+        s->coefficient[2] = c2;
         s->learned = true;
     }
 }
@@ -211,26 +275,46 @@ static void adaptive_robot_adopt(adaptive_robot_adaptive_t *s)
 /* Learn from a complete window, or find that there is nothing to learn from. */
 static void adaptive_robot_judge(adaptive_robot_adaptive_t *s)
 {
-    const adaptive_robot_number_t energy = adaptive_robot_energy_of(&s->window);
-    const adaptive_robot_number_t noise = adaptive_robot_noise_power(&s->window);
+    const adaptive_robot_adaptive_sums_t plain = adaptive_robot_plain(&s->window, s->coefficient);
+    const adaptive_robot_number_t energy = adaptive_robot_energy_of(&plain);
+    const adaptive_robot_number_t noise = adaptive_robot_noise_power(&s->window, &plain);
     s->frozen = !((energy > adaptive_robot_DEAD_ZONE) && (energy > (adaptive_robot_NOISE_FACTOR * noise)));
     if (!s->frozen) {
-        const adaptive_robot_number_t windows = adaptive_robot_windows_that_count(s, energy, noise) * energy;
-        const adaptive_robot_number_t past = adaptive_robot_energy_of(&s->past);
-        const adaptive_robot_number_t weight = (past > windows) ? (windows / past) : 1.0;
-        const adaptive_robot_adaptive_sums_t seen = adaptive_robot_with_white(&s->window, -noise);
+        const adaptive_robot_number_t weight = adaptive_robot_past_weight(s, energy, noise);
+        const adaptive_robot_adaptive_sums_t seen = adaptive_robot_with_white(&s->window, s->coefficient, -noise);
+        s->past.ee = (weight * s->past.ee) + seen.ee;
+        s->past.eu = (weight * s->past.eu) + seen.eu;
+        s->past.ew = (weight * s->past.ew) + seen.ew;
         s->past.uu = (weight * s->past.uu) + seen.uu;
         s->past.uw = (weight * s->past.uw) + seen.uw;
         s->past.ww = (weight * s->past.ww) + seen.ww;
-        s->past.vu = (weight * s->past.vu) + seen.vu;
-        s->past.vw = (weight * s->past.vw) + seen.vw;
-        s->past.vv = (weight * s->past.vv) + seen.vv;
         adaptive_robot_adopt(s);
-    } else if (s->shaping) {
+    } else if (s->shaping && s->fresh) {
         s->converged = true;
+        s->again = false;
+        s->refused = false;
     } else {
-        /* as it was */
+        /* as it was: what is left had time to sink into noise, or was not shaped */
     }
+}
+
+/* Learn from this tick if all samples of two delays are free vibration. */
+static bool adaptive_robot_learn(adaptive_robot_adaptive_t *s, bool enable, uint32_t first, uint32_t second)
+{
+    const bool adapting = enable && (s->quiet_ticks >= 101u);
+    if (adapting) {
+        adaptive_robot_add_sample(&s->window, s->coefficient, s->vibration, s->vibrations[first], s->vibrations[second]);
+        s->window_ticks += 1u;
+        if (s->window_ticks >= 200u) {
+            adaptive_robot_judge(s);
+            adaptive_robot_interrupt(s);
+        }
+    } else if (!enable) {
+        adaptive_robot_interrupt(s);
+    } else {
+        /* wait until it is quiet */
+    }
+    return adapting;
 }
 
 void adaptive_robot_adaptive_init(adaptive_robot_adaptive_t *shaper)
@@ -240,11 +324,11 @@ void adaptive_robot_adaptive_init(adaptive_robot_adaptive_t *shaper)
         shaper->commands[n] = 0.0;
         shaper->vibrations[n] = 0.0;
     }
-    shaper->window = adaptive_robot_NOTHING;
-    shaper->past = adaptive_robot_with_white(&adaptive_robot_NOTHING, adaptive_robot_WHITE_AT_FIRST);
     shaper->coefficient[0] = adaptive_robot_FIRST_OUTER;
-    shaper->coefficient[1] = adaptive_robot_FIRST_OUTER;
-    shaper->coefficient[2] = adaptive_robot_FIRST_LAST;
+    shaper->coefficient[1] = adaptive_robot_FIRST_MIDDLE;
+    shaper->coefficient[2] = adaptive_robot_FIRST_OUTER;
+    adaptive_robot_forget_past(shaper);
+    adaptive_robot_interrupt(shaper);
     for (n = 0u; n < 3u; ++n) {
         shaper->used[n] = shaper->coefficient[n];
     }
@@ -255,13 +339,13 @@ void adaptive_robot_adaptive_init(adaptive_robot_adaptive_t *shaper)
     shaper->rest_ticks = 0u;
     shaper->quiet_ticks = 0u;
     shaper->moved_ticks = 0u;
-    shaper->window_ticks = 0u;
     shaper->status = 0u;
     shaper->shaping = false;
     shaper->learned = false;
     shaper->converged = false;
     shaper->frozen = false;
     shaper->again = false;
+    shaper->rough = false;
     shaper->refused = false;
 }
 
@@ -287,6 +371,11 @@ static void adaptive_robot_read_command(adaptive_robot_adaptive_t *s, adaptive_r
     } else {
         s->rest_ticks = 0u;
         s->quiet_ticks = 0u;
+        /* A window may go on from rest to rest, as long as it holds beginnings of rests and nothing else. */
+        if (!s->fresh) {
+            adaptive_robot_interrupt(s);
+        }
+        s->fresh = true;
         s->moved_ticks += (s->moved_ticks < 4000u) ? 1u : 0u;
     }
     s->command = command;
@@ -299,6 +388,7 @@ static void adaptive_robot_read_vibration(adaptive_robot_adaptive_t *s, adaptive
         s->vibration = vibration * adaptive_robot_PER_SCALE;
     } else {
         s->quiet_ticks = 0u;
+        adaptive_robot_interrupt(s);
         s->status |= ADAPTIVE_ROBOT_ADAPTIVE_VIBRATION_INVALID;
     }
 }
@@ -310,7 +400,11 @@ static adaptive_robot_number_t adaptive_robot_shape(adaptive_robot_adaptive_t *s
     adaptive_robot_number_t reference = s->command;
     uint32_t n;
     if (settled) {
-        s->shaping = enable && s->learned && (s->moved_ticks >= 4000u);
+        const bool shaping = enable && s->learned && (s->moved_ticks >= 4000u);
+        if (shaping != s->shaping) {
+            adaptive_robot_interrupt(s);
+        }
+        s->shaping = shaping;
         for (n = 0u; n < 3u; ++n) {
             s->used[n] = s->coefficient[n];
         }
@@ -324,26 +418,6 @@ static adaptive_robot_number_t adaptive_robot_shape(adaptive_robot_adaptive_t *s
         /* the command itself */
     }
     return reference;
-}
-
-/* Learn from this tick if all samples of two delays are free vibration. */
-static bool adaptive_robot_learn(adaptive_robot_adaptive_t *s, bool enable, uint32_t first, uint32_t second)
-{
-    const bool adapting = enable && (s->quiet_ticks >= 101u);
-    bool ends = !adapting;
-    if (adapting) {
-        adaptive_robot_add_sample(&s->window, s->vibration, s->vibrations[first], s->vibrations[second]);
-        s->window_ticks += 1u;
-        if (s->window_ticks >= 200u) {
-            adaptive_robot_judge(s);
-            ends = true;
-        }
-    }
-    if (ends) {
-        s->window = adaptive_robot_NOTHING;
-        s->window_ticks = 0u;
-    }
-    return adapting;
 }
 
 void adaptive_robot_adaptive_step(adaptive_robot_adaptive_t *shaper, const adaptive_robot_adaptive_input_t *input,
@@ -364,8 +438,8 @@ void adaptive_robot_adaptive_step(adaptive_robot_adaptive_t *shaper, const adapt
     first = (head >= ADAPTIVE_ROBOT_ADAPTIVE_DELAY) ? (head - ADAPTIVE_ROBOT_ADAPTIVE_DELAY)
         : (head + (ADAPTIVE_ROBOT_ADAPTIVE_RING - ADAPTIVE_ROBOT_ADAPTIVE_DELAY));
     second = (head >= (ADAPTIVE_ROBOT_ADAPTIVE_RING - 1u)) ? 0u : (head + 1u);
-    output->reference = adaptive_robot_shape(s, input->enable, first, second);
     output->adapting = adaptive_robot_learn(s, input->enable, first, second);
+    output->reference = adaptive_robot_shape(s, input->enable, first, second);
     s->status |= output->adapting ? ADAPTIVE_ROBOT_ADAPTIVE_ADAPTING : 0u;
     s->status |= s->converged ? ADAPTIVE_ROBOT_ADAPTIVE_CONVERGED : 0u;
     s->status |= s->frozen ? ADAPTIVE_ROBOT_ADAPTIVE_FROZEN : 0u;

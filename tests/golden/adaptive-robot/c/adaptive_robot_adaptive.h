@@ -75,14 +75,15 @@ typedef struct {
     uint32_t status; ///< sum of the status bits
 } adaptive_robot_adaptive_output_t;
 
-/// Sums over samples v0, v1, v2 of the vibration, a delay apart, with u = v0 - v1 and w = v2 - v1.
+/// Sums over samples v0, v1, v2 of the vibration, a delay apart: u = v0 - v1, w = v2 - v1, and e is what is
+/// left of them by the coefficients learned.
 typedef struct {
+    double ee; ///< of e e
+    double eu; ///< of e u
+    double ew; ///< of e w
     double uu; ///< of u u
     double uw; ///< of u w
     double ww; ///< of w w
-    double vu; ///< of v1 u
-    double vw; ///< of v1 w
-    double vv; ///< of v1 v1
 } adaptive_robot_adaptive_sums_t;
 
 /// State of one shaper. The caller owns it; nothing outside the two functions below may write to it.
@@ -110,6 +111,8 @@ typedef struct {
     bool frozen; ///< as the output
     bool again; ///< learning again
     bool refused; ///< the last set was refused
+    bool rough; ///< the last window was summed up around coefficients that did not fit
+    bool fresh; ///< the window holds beginnings of rests and nothing else
 } adaptive_robot_adaptive_t;
 
 /// Bring a shaper to the state after power-on: coefficients of 1/3, not in use. Cost: both rings.
