@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
+from swayless.controller.adaptive.delays import check_delay
 from swayless.controller.number import NUMBER_TYPES, NumberType
 from swayless.errors import ControllerError
 from swayless.plant.mode import Mode
 
-LARGEST_COSINE = 0.95
-"""Beyond this |cos(w Td)| the three samples that the shaper learns from hardly differ, or only in sign."""
-
 LARGEST_PEAK_FACTOR = 8.0
-"""Beyond it coefficients would leave the lattice on which their sum is exact; no drive has that to spare."""
+"""Beyond it the lattice of exact sums would be too coarse; no drive has that to spare."""
 
 SHORTEST_WINDOW_TICKS, DELAYS_PER_WINDOW = 64, 8
 """Noise is told from vibration over so many samples, and over so much of a period: see decision 27."""
@@ -47,7 +44,8 @@ class AdaptiveSettings:
     dead_zone_ratio : float
         Vibration of at most this rms, relative to `vibration_scale`, is never learned from; 0 to 1.
     mode : Mode or None
-        The vibration, where it is known: a delay with which it cannot be learned is then refused.
+        The vibration, where it is known: a delay with which it cannot be learned, or would ask for more than
+        `max_reference`, is then refused.
     number : NumberType
         ``double`` or ``float``.
 
@@ -67,7 +65,7 @@ class AdaptiveSettings:
     Traceback (most recent call last):
         ...
     swayless.errors.ControllerError: delay = 0.031 s: |cos(w Td)| = 0.99968 of the vibration of 16 Hz: must \
-be at most 0.95; half a period is 0.03125 s, of which 0.1 to 0.9 can be learned
+be at most 0.95; with max_reference = 1 max_command delays such as 0.015625 to 0.028091 s can be learned
     """
 
     delay_ticks: int
@@ -84,7 +82,7 @@ be at most 0.95; half a period is 0.03125 s, of which 0.1 to 0.9 can be learned
     def __post_init__(self) -> None:
         if self.number.is_integer:
             raise ControllerError(
-                "adaptive: number = 'int32': must be double or float; sums of squares of a measurement "
+                "number = 'int32': must be double or float; sums of squares of a measurement "
                 "span more than 64 bits of fixed point"
             )
         for name, lowest in (("delay_ticks", 1), ("cycle_ticks", 1), ("lag_ticks", 0)):
@@ -93,27 +91,23 @@ be at most 0.95; half a period is 0.03125 s, of which 0.1 to 0.9 can be learned
             self._check_positive(name)
         if not 1.0 <= self.peak_factor <= LARGEST_PEAK_FACTOR:
             raise ControllerError(
-                f"adaptive: max_reference = {self.max_reference!r}: must be from max_command = "
+                f"max_reference = {self.max_reference!r}: must be from max_command = "
                 f"{self.max_command!r} to {LARGEST_PEAK_FACTOR:g} times that"
             )
         if not 0.0 <= self.dead_zone_ratio <= 1.0:
-            raise ControllerError(
-                f"adaptive: dead_zone_ratio = {self.dead_zone_ratio!r}: must be from 0 to 1"
-            )
+            raise ControllerError(f"dead_zone_ratio = {self.dead_zone_ratio!r}: must be from 0 to 1")
         if self.mode is not None:
-            check_delay(self.delay_ticks * self.tick_s, self.mode)
+            check_delay(self.delay_ticks * self.tick_s, self.mode, self.peak_factor)
 
     def _check_ticks(self, name: str, lowest: int) -> None:
         highest = LONGEST_TICKS // (DELAYS_PER_WINDOW if name == "delay_ticks" else 1)
         if not lowest <= getattr(self, name) <= highest:
-            raise ControllerError(
-                f"adaptive: {name} = {getattr(self, name)!r}: must be from {lowest} to {highest}"
-            )
+            raise ControllerError(f"{name} = {getattr(self, name)!r}: must be from {lowest} to {highest}")
 
     def _check_positive(self, name: str) -> None:
         value = getattr(self, name)
         if not 1e-6 <= value <= 1e6:
-            raise ControllerError(f"adaptive: {name} = {value!r}: must be from 1e-6 to 1e6")
+            raise ControllerError(f"{name} = {value!r}: must be from 1e-6 to 1e6")
 
     @property
     def peak_factor(self) -> float:
@@ -142,25 +136,3 @@ be at most 0.95; half a period is 0.03125 s, of which 0.1 to 0.9 can be learned
     def window_ticks(self) -> int:
         """Samples that are judged together."""
         return max(SHORTEST_WINDOW_TICKS, DELAYS_PER_WINDOW * self.delay_ticks)
-
-
-def check_delay(delay_s: float, mode: Mode) -> None:
-    """Refuse a delay with which a vibration cannot be learned.
-
-    Raises
-    ------
-    ControllerError
-        If the absolute cosine of the phase that passes in a delay is above 0.95.
-
-    Examples
-    --------
-    >>> check_delay(0.025, Mode(16.0))
-    """
-    half_s = 0.5 * mode.damped_period_s
-    cosine = abs(math.cos(math.pi * delay_s / half_s))
-    if cosine > LARGEST_COSINE:
-        raise ControllerError(
-            f"delay = {delay_s:.6g} s: |cos(w Td)| = {cosine:.5g} of the vibration of "
-            f"{mode.frequency_hz:.6g} Hz: must be at most {LARGEST_COSINE}; half a period is {half_s:.6g} s, "
-            "of which 0.1 to 0.9 can be learned"
-        )
