@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from swayless.cli.console import progress
 from swayless.design.optimal import OptimalCommand, least_energy, time_optimal, track
@@ -22,12 +23,24 @@ def found_for(request: ProfileRequest) -> OptimalCommand:
         If no command can do it: the message names the cause.
     """
     with progress() as show:
-        if request.wanted is not None and request.tolerance is not None:
-            show(f"following {request.wanted.size} outputs")
-            return track(request.task, request.wanted, request.tolerance)
-        show("the fewest ticks")
-        fastest = time_optimal(request.task)
-        if request.relax_ratio is None:
-            return fastest
-        show("the least energy")
-        return least_energy(request.task, math.ceil(fastest.ticks * request.relax_ratio * (1.0 - 1e-12)))
+        return found_with(request, show)
+
+
+def found_with(request: ProfileRequest, show: Callable[[str], None]) -> OptimalCommand:
+    """Find the command of a request, as `found_for` does.
+
+    Parameters
+    ----------
+    request : ProfileRequest
+    show : callable
+        Shows progress.
+    """
+    if request.wanted is not None and request.tolerance is not None:
+        show(f"following {request.wanted.size} outputs")
+        return track(request.task, request.wanted, request.tolerance)
+    show("the fewest ticks")
+    fastest = time_optimal(request.task)
+    if request.relax_ratio is None:
+        return fastest
+    show("the least energy")
+    return least_energy(request.task, math.ceil(fastest.ticks * request.relax_ratio * (1.0 - 1e-12)))
