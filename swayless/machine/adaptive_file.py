@@ -14,6 +14,7 @@ from typing import Any
 
 import swayless
 from swayless.controller.adaptive import AdaptiveSettings
+from swayless.controller.adaptive.settings import DELAYS_PER_WINDOW, LONGEST_TICKS
 from swayless.controller.number import number_type
 from swayless.errors import ControllerError, FileError
 from swayless.machine.checks import choice, machine_name, number, quantity
@@ -25,7 +26,7 @@ from swayless.machine.source import read_source
 from swayless.plant import Mode
 
 SCHEMA = "swayless.adaptive/1"
-_TIME = quantity("time", 0.0, 1000.0)
+_TIME, _POSITIVE_TIME = quantity("time", 0.0, 1000.0), quantity("time", 1e-6, 1000.0)
 _SIZE = number(1e-6, 1e6)
 _SECTIONS = ("adaptive", "controller")
 
@@ -111,8 +112,8 @@ def _read_settings(table: Table, controller: Table) -> AdaptiveSettings | None:
     # A value that is missing or wrong is None here, and a problem in the report.
     tick_s: Any = controller.need("tick", TICK)
     kind: Any = controller.take("number", choice("number type", ("double", "float")), "double")
-    delay_s: Any = table.need("delay", _TIME)
-    cycle_s: Any = table.need("cycle", _TIME)
+    delay_s: Any = table.need("delay", _POSITIVE_TIME)
+    cycle_s: Any = table.need("cycle", _POSITIVE_TIME)
     lag_s: Any = table.take("lag", _TIME, 0.0)
     values: dict[str, Any] = {
         "max_command": table.need("max_command", _SIZE),
@@ -121,22 +122,42 @@ def _read_settings(table: Table, controller: Table) -> AdaptiveSettings | None:
         "dead_zone_ratio": table.take("dead_zone", number(0.0, 1.0), 0.001),
     }
     frequency_hz: Any = table.take("frequency", FREQUENCY, None)
-    damping_ratio: Any = table.take("damping_ratio", DAMPING, 0.0)
+    damping_ratio: Any = table.take("damping_ratio", DAMPING, None)
+    if damping_ratio is not None and "frequency" not in table.raw:
+        table.place("damping_ratio").wrong(damping_ratio, "needs frequency beside it")
     table.close()
     controller.close()
     if table.report.problems:
         return None
-    values["mode"] = None if frequency_hz is None else Mode(frequency_hz, damping_ratio)
-    delay_ticks = round(delay_s / tick_s)
-    if abs(delay_s - delay_ticks * tick_s) > 1e-9 * delay_s:
-        table.place("delay").wrong(delay_s, f"must be a whole number of ticks of {tick_s:g} s")
+    values["mode"] = None if frequency_hz is None else Mode(frequency_hz, damping_ratio or 0.0)
+    values["delay_ticks"] = _delay_ticks(table.place("delay"), delay_s, tick_s)
+    values["cycle_ticks"] = _in_range(table.place("cycle"), cycle_s, tick_s, round(cycle_s / tick_s), 1)
+    values["lag_ticks"] = _in_range(table.place("lag"), lag_s, tick_s, math.ceil(lag_s / tick_s - 1e-9), 0)
+    if table.report.problems:
         return None
-    ticks = {"cycle_ticks": max(1, round(cycle_s / tick_s)), "lag_ticks": math.ceil(lag_s / tick_s - 1e-9)}
     try:
-        return AdaptiveSettings(delay_ticks, tick_s, **values, **ticks, number=number_type(kind))
+        return AdaptiveSettings(tick_s=tick_s, **values, number=number_type(kind))
     except ControllerError as error:
-        table.place("").problem(str(error))
+        Place(table.report, "").problem(f"{table.prefix}{error}")
         return None
+
+
+def _delay_ticks(place: Place, delay_s: float, tick_s: float) -> int:
+    """Give a delay in ticks; one that is not whole is a problem."""
+    ticks = round(delay_s / tick_s)
+    if abs(delay_s - ticks * tick_s) > 1e-9 * delay_s:
+        place.wrong(delay_s, f"must be a whole number of ticks of {tick_s:g} s")
+        return ticks
+    return _in_range(place, delay_s, tick_s, ticks, 1, LONGEST_TICKS // DELAYS_PER_WINDOW)
+
+
+def _in_range(
+    place: Place, time_s: float, tick_s: float, ticks: int, least: int, most: int = LONGEST_TICKS
+) -> int:
+    """Give a number of ticks back; one out of range is a problem."""
+    if not least <= ticks <= most:
+        place.wrong(time_s, f"must be from {least} to {most} ticks of {tick_s:g} s")
+    return ticks
 
 
 def adaptive_text(machine: AdaptiveMachine) -> str:

@@ -44,13 +44,13 @@ def check_delay(delay_s: float, mode: Mode, peak_factor: float) -> None:
     Traceback (most recent call last):
         ...
     swayless.errors.ControllerError: delay = 0.01 s: has amplitudes of 1.0772, -1.1544 and 1.0772 for the \
-vibration of 16 Hz, which take max_reference = 3.3087 max_command; with max_reference = 1 max_command delays \
-such as 0.015625 to 0.028091 s can be learned
+vibration of 16 Hz, which take max_reference = 3.3087 times max_command; with max_reference = 1 times \
+max_command delays such as 0.015625 to 0.028091 s can be learned
     """
     what, low_s, high_s = f"the vibration of {mode.frequency_hz:.6g} Hz", *learnable_delays(mode, peak_factor)
     instead = (
-        f"with max_reference = {peak_factor:.5g} max_command delays such as {low_s:.5g} to {high_s:.5g} s "
-        "can be learned"
+        f"with max_reference = {peak_factor:.5g} times max_command delays such as {low_s:.5g} to "
+        f"{high_s:.5g} s can be learned"
     )
     cosine = abs(math.cos(2.0 * math.pi * delay_s / mode.damped_period_s))
     if cosine > LARGEST_COSINE:
@@ -63,7 +63,7 @@ such as 0.015625 to 0.028091 s can be learned
     if asked > peak_factor * (1.0 + _ROUNDING):
         raise ControllerError(
             f"delay = {delay_s:.6g} s: has amplitudes of {first:.5g}, {middle:.5g} and {last:.5g} "
-            f"for {what}, which take max_reference = {asked:.5g} max_command; {instead}"
+            f"for {what}, which take max_reference = {asked:.5g} times max_command; {instead}"
         )
 
 

@@ -65,7 +65,7 @@ class AdaptiveSettings:
     Traceback (most recent call last):
         ...
     swayless.errors.ControllerError: delay = 0.031 s: |cos(w Td)| = 0.99968 of the vibration of 16 Hz: must \
-be at most 0.95; with max_reference = 1 max_command delays such as 0.015625 to 0.028091 s can be learned
+be at most 0.95; with max_reference = 1 times max_command delays such as 0.015625 to 0.028091 s can be learned
     """
 
     delay_ticks: int

@@ -154,7 +154,7 @@ def test_the_window_spans_eight_delays_or_64_ticks():
         ({"mode": Mode(25.0)}, "|cos(w Td)| = 1 of the vibration of 25 Hz: must be at most 0.95"),
         ({"mode": Mode(12.5)}, "delays such as 0.02 to 0.035957 s can be learned"),
         ({"mode": Mode(5.0)}, "amplitudes of 0.72361, -0.44721 and 0.72361"),
-        ({"mode": Mode(5.0, 0.1)}, "with max_reference = 1 max_command delays such as 0.050252"),
+        ({"mode": Mode(5.0, 0.1)}, "with max_reference = 1 times max_command delays such as 0.050252"),
         ({"mode": Mode(1.0), "max_reference": 8.0}, "|cos(w Td)| = 0.96858"),
         ({"mode": Mode(2.6), "max_reference": 8.0}, "which take max_reference = 8.7"),
     ],
