@@ -6,6 +6,7 @@ import typer
 
 from swayless.cli.help_text import help_text
 from swayless.cli.profile_optimal import optimal
+from swayless.cli.profile_simulate import simulate
 
 
 def _profile() -> None:
@@ -15,6 +16,7 @@ def _profile() -> None:
     --------
     swayless profile optimal move.toml
     swayless profile optimal crane.toml --rope-length "6 m" --target 12 -o move.csv
+    swayless profile simulate move.toml --feedback "2 0.15"
     """
 
 
@@ -28,4 +30,7 @@ def _group() -> None:
 
 profile_app.command(help=help_text(optimal), short_help="The fewest ticks, or the least energy, in limits.")(
     optimal
+)
+profile_app.command(help=help_text(simulate), short_help="A move on plants that are off, with a feedback.")(
+    simulate
 )

@@ -179,6 +179,8 @@ def loop_figure(move: PlottedMove, alone: Sequence[PlottedLoop], together: Seque
             axes.set_ylabel(name)
             legend_above(axes)
         panels[-1].set_xlabel("Time (s)")
+        shown_s = move.command.tick_s * max(loop.output.size - 1 for loop in alone)
+        panels[-1].set_xlim(-_LEAD_RATIO * shown_s, shown_s)
         return settle(figure)
 
 

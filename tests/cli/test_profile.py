@@ -172,6 +172,29 @@ CASES = {
 }
 
 
+SIMULATE_CASES = {
+    "move.toml --off 0": "--off[0] = 0: must be",
+    "move.toml --off x": '--off[0] = "x": is not a ratio',
+    "move.toml --feedback 1": '--feedback = "1": must be two numbers, P and D, not both 0',
+    "move.toml --feedback '0 0'": '--feedback = "0 0": must be two numbers',
+    "move.toml --feedback '50 0'": "frequencies at 90 %: feedback",
+    "move.toml -o move.jpg": "move.jpg: suffix '.jpg': must be .csv for a table, or a figure's: ",
+    "move.toml -o no/move.csv": "no/move.csv: cannot be written: there is no folder no",
+    "mass.toml --off 0.9": "--off: nothing rings in this plant",
+    "none.toml": "none.toml: cannot be read",
+}
+
+
+@pytest.mark.parametrize("line", SIMULATE_CASES)
+def test_what_cannot_be_simulated_is_said(run, tmp_path, line):
+    (tmp_path / "move.toml").write_text(EXAMPLE.read_text())
+    mass = EXAMPLE.read_text().replace("[0.01, 0.0, 1.0]", "[1.0, 0.0, 0.0]").replace("robust = 1", "")
+    (tmp_path / "mass.toml").write_text(mass.replace("5 ms", "50 ms"))
+    done = run("profile", "simulate", *shlex.split(line))
+    assert (done.code, done.out) == (2, "")
+    assert SIMULATE_CASES[line] in done.err
+
+
 @pytest.mark.parametrize("line", CASES)
 def test_what_is_wrong_is_said_with_its_place(run, tmp_path, line):
     (tmp_path / "move.toml").write_text(EXAMPLE.read_text())
@@ -220,3 +243,75 @@ def test_every_option_is_in_the_table_of_the_page_and_no_other():
     options = {name for parameter in command.params for name in parameter.opts if name.startswith("-")}
     documented = set(re.findall(r"`(--?[a-z-]+)`", PAGE.partition("## Options")[2]))
     assert documented == options - {"--help", "-h"}
+
+
+def closed_loop_by_hand(ratio, document, gains, ticks):
+    """Output and input of the oscillator under feedforward and feedback, stepped one tick after the other."""
+    w, tick_s = 10.0 * ratio, document["tick_s"]
+    turn = np.array([[np.cos(w * tick_s), np.sin(w * tick_s)], [-np.sin(w * tick_s), np.cos(w * tick_s)]])
+    state, before, outputs, inputs = np.zeros(2), 0.0, [], []
+    reference, command = (
+        [*values, *[values[-1]] * ticks]
+        for values in (document["reference"], [*document["command"], document["final_value"]])
+    )
+    for tick in range(ticks + 1):
+        off = reference[tick] - state[0]
+        inputs.append(command[tick] + gains[0] * off + gains[1] * (off - before) / tick_s)
+        outputs.append(state[0])
+        # The oscillator turns about where the input holds it.
+        middle = np.array([inputs[-1], 0.0])
+        state, before = middle + turn @ (state - middle), off
+    return np.array(outputs), np.array(inputs)
+
+
+def test_a_move_is_simulated_on_plants_that_are_off_alone_and_with_a_feedback(run):
+    options = ("--feedback", "2 0.15", "--off", "0.9", "--off", "1.2", "--json")
+    document = found(run("profile", "simulate", EXAMPLE, *options))
+    assert document["reference"][-1] == pytest.approx(1.0, abs=1e-9)
+    runs = {(each["frequency_ratio"], each["proportional"]): each for each in document["runs"]}
+    assert list(runs) == [(ratio, gain) for ratio in (0.9, 1.0, 1.2) for gain in (0.0, 2.0)]
+    for (ratio, gain), each in runs.items():
+        gains = (gain, each["derivative_s"])
+        output, asked = closed_loop_by_hand(ratio, document, gains, len(each["output"]) - 1)
+        # Two ways of stepping some hundred ticks: exact but for rounding, which the feedback does not grow.
+        assert each["output"] == pytest.approx(output, abs=1e-9)
+        assert each["input"] == pytest.approx(asked, abs=1e-6)
+        assert each["highest_input"] == pytest.approx(asked.max(), abs=1e-6)
+        assert each["left"] == pytest.approx(np.abs(output[58:] - 1.0).max(), abs=1e-9)
+        way = np.abs(output[:59] - document["reference"]).max()
+        assert each["farthest_on_the_way"] == pytest.approx(way, abs=1e-9)
+    assert runs[0.9, 2.0]["left_later"] < 0.05 * runs[0.9, 0.0]["left_later"]
+    assert runs[0.9, 2.0]["limit_share_ratio"] > 1.1
+
+
+def test_what_was_simulated_is_written_and_drawn(run, tmp_path):
+    written = ("-o", "loop.csv", "-o", "loop.svg", "-o", "loop.png")
+    done = run("profile", "simulate", EXAMPLE, "--off", "95 %", *written)
+    assert (done.code, done.err) == (0, "")
+    assert done.out.endswith("loop.csv: written\nloop.svg: written\nloop.png: written\n")
+    head, *lines = (tmp_path / "loop.csv").read_text().splitlines()
+    columns = "command,reference,input_0.95_feedforward,output_0.95_feedforward,input_1_feedforward"
+    assert head == f"tick,time_s,{columns},output_1_feedforward"
+    table = np.array([line.split(",") for line in lines], dtype=float)
+    # On the plant as designed the command makes its trajectory.
+    assert table[:, 7] == pytest.approx(table[:, 3], abs=1e-9)
+    assert (tmp_path / "loop.svg").read_text().startswith("<?xml")
+    assert (tmp_path / "loop.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_move_is_written_and_drawn_at_once(run, tmp_path):
+    done = run("profile", "optimal", EXAMPLE, "-o", "move.csv", "-o", "move.pdf")
+    assert done.out.endswith("move.csv: written\nmove.pdf: written\n")
+    assert (tmp_path / "move.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_crane_is_simulated_on_other_ropes(run, tmp_path):
+    (tmp_path / "crane.toml").write_text(example_text("workshop-crane").replace('"0.2 %"', "0.0"))
+    options = ("--rope-length", "5 m", "--target", "1", "--tick", "50 ms", "--json")
+    document = found(run("profile", "simulate", "crane.toml", *options))
+    assert [each["frequency_ratio"] for each in document["runs"]] == [0.9, 1.0, 1.1]
+    # A rope longer by 1 / 0.9^2 has 0.9 of the frequency.
+    w2 = 0.81 * 9.80665 / 5.0
+    longer = LinearPlant.from_transfer_function([w2], [1.0, 0.0, w2, 0.0])
+    output = output_at_ticks(longer, played(document), ticks=len(document["runs"][0]["output"]) - 1)
+    assert document["runs"][0]["output"] == pytest.approx(output.tolist(), abs=1e-9)
