@@ -23,7 +23,7 @@ MASS = (
     StopLaw(Pieces([1, 1], [[[0.0, -0.75, 0.125]], [[0.0, -0.25, 0.0]]]), [1.0, 0.875, 0.0]),
 )
 SHORT = LAG[0], StopLaw(Pieces([3, 1, 2], 0.3 * _RANDOM.normal(size=(3, 1, 2))), [1.0, 0.25])
-LINEAR = MASS[0], StopLaw(Pieces([4, 1], 0.1 * _RANDOM.normal(size=(2, 2, 3))), [1.0, 0.875, 0.0])
+LINEAR = MASS[0], StopLaw(Pieces([4, 1], 0.01 * _RANDOM.normal(size=(2, 2, 3))), [0.01, 0.02, 0.0])
 FOUR = (
     ProfileModel(0.1 * _RANDOM.normal(size=(4, 4)), _RANDOM.normal(size=4), _RANDOM.normal(size=4), 0.3),
     StopLaw(Pieces([5, 2], 0.1 * _RANDOM.normal(size=(2, 4, 5))), 0.1 * _RANDOM.normal(size=5)),

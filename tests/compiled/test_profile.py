@@ -49,14 +49,19 @@ def test_every_compiler_accepts_the_code_without_a_warning(compiler):
     assert all(each.comparison.is_equal for each in verdicts)
 
 
-def test_the_stimuli_reach_every_status_bit_and_end_moves_and_stops():
+@pytest.mark.parametrize("name", BLOCKS)
+def test_the_stimuli_end_moves_and_stops_and_reach_every_status_bit(name):
     seen, done, aborted = 0, 0, 0
-    for stimulus in profile_stimuli(block("plain, one state", "double"), 0):
+    code = block(name, "double")
+    for stimulus in profile_stimuli(code, 0):
         seen |= int(np.bitwise_or.reduce(stimulus.expected["status"]))
         done += int(stimulus.expected["done"].sum())
         aborted += int(stimulus.expected["aborted"].sum())
-    assert seen == sum(ProfileStatus)
-    assert min(done, aborted) > 50
+    assert min(done, aborted) >= 20
+    # A plant that stays by itself may start anywhere, and a wide limit comes before the longest travel.
+    spared = ProfileStatus.TRAVEL_TOO_LONG
+    spared |= ProfileStatus(0) if code.holds_with_input else ProfileStatus.START_ELSEWHERE
+    assert sum(ProfileStatus) & ~seen & ~spared == 0
 
 
 WRONG = {
