@@ -77,10 +77,10 @@ def decided(
         If a pendulum is asked for that would swing beyond the horizontal.
     """
     waveform = possible_waveform(single, record, pendulum)
-    linear = _hypothesis(single, record.value, modes)
+    linear = _hypothesis(single, modes)
     if waveform is None:
         return linear, ()
-    swung = _swung(linear, record, waveform, modes)
+    swung = _swung(linear, waveform, modes)
     all_of_them = swung if pendulum else [*swung, linear]
     best = max(_evidence(each.fit) for each in all_of_them)
     left = [each for each in all_of_them if _evidence(each.fit) > best - _DECISIVE]
@@ -89,18 +89,16 @@ def decided(
     return taken, tuple(each for each in left if each is not taken)
 
 
-def _swung(
-    linear: Hypothesis, record: SwingRecord, waveform: Waveform, modes: int | None
-) -> list[Hypothesis]:
+def _swung(linear: Hypothesis, waveform: Waveform, modes: int | None) -> list[Hypothesis]:
     """Fit a load on a rope, the likeliest first; of two modes of like size either may be it."""
-    single = bent(linear.single.model, linear.single.parameters, record, waveform)
-    first = _hypothesis(single, record.value, modes)
+    single = bent(linear.single.model, linear.single.parameters, waveform)
+    first = _hypothesis(single, modes)
     if first.double is None or linear.double is None:
         return [first]
     # Fits of one mode may lead to another optimum than those of two.
     double, size = linear.double, [linear.double.amplitude(index) for index in range(2)]
     near = [
-        Hypothesis(single, bent(double.model, _led_by(double, index), record, waveform))
+        Hypothesis(single, bent(double.model, _led_by(double, index), waveform))
         for index in range(2)
         if size[index] >= _ALIKE * size[1 - index]
     ]
@@ -113,13 +111,13 @@ def _led_by(double: Fit, index: int) -> FloatArray:
     return np.concatenate([np.roll(double.parameters[:count], -PER_MODE * index), double.parameters[count:]])
 
 
-def _hypothesis(single: Fit, value: FloatArray, modes: int | None) -> Hypothesis:
-    return Hypothesis(single, None if modes == 1 else second_mode(single, value, certain=modes is not None))
+def _hypothesis(single: Fit, modes: int | None) -> Hypothesis:
+    return Hypothesis(single, None if modes == 1 else second_mode(single, certain=modes is not None))
 
 
 def _evidence(found: Fit) -> float:
     """Give the log likelihood, less what more parameters gain by chance (Schwarz 1978)."""
-    count = found.residual.size
+    count = found.model.time_s.size
     return -0.5 * (
         count * float(np.log(max(found.squares, _TINY))) + found.model.parameter_count * float(np.log(count))
     )

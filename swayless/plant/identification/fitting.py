@@ -13,13 +13,12 @@ applications", *Inverse Problems* 19 (2003), R1-R26, section 3; the Jacobian aft
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swayless.plant.identification.record import FloatArray
 from swayless.plant.identification.swing_model import (
@@ -32,7 +31,7 @@ from swayless.plant.identification.swing_model import (
     solve,
 )
 
-_MOST_STEPS = 40
+_MOST_STEPS = 80
 _STILL = 1e-11
 """A step is no step any more if it moves the phase, or the decay, over the whole record by less."""
 
@@ -40,10 +39,8 @@ _STILL_STD = 1e-4
 """Or by less than this part of a standard deviation."""
 
 _FIRST_DAMPING, _LARGEST_DAMPING = 1e-4, 1e8
-_MANY, _FEW = 20_000, 8_000
-"""Of more samples some find the way to the optimum, all of them the optimum itself."""
-
-_UNEVEN = (math.sqrt(5.0) - 1.0) / 2.0
+_ROOM = 1.25
+"""How far a fit may go from where it starts, in frequency."""
 
 _FASTEST_GROWTH = 4.0
 """Over the record, in the exponent: noise may make a swing seem to grow, but no free swing grows more."""
@@ -56,27 +53,28 @@ class Fit:
     Parameters
     ----------
     model : SwingModel
+        For the samples of a record.
     parameters : ndarray, shape (model.parameter_count,)
-    residual : ndarray, shape (n,)
-        Record less model.
+    squares : float
+        Sum of the squares of the residual.
     normal : ndarray, shape (model.parameter_count, model.parameter_count)
         J' J of the Jacobian J: Fisher's information for noise of variance 1.
     """
 
     model: SwingModel
     parameters: FloatArray
-    residual: FloatArray
+    squares: float
     normal: FloatArray
 
-    @property
-    def squares(self) -> float:
-        """Sum of the squares of the residual."""
-        return float(self.residual @ self.residual)
+    @cached_property
+    def residual(self) -> FloatArray:
+        """Record less model, shape (n,)."""
+        return self.model.samples.value - self.model.evaluate(self.parameters)[0]
 
     @property
     def freedom(self) -> int:
         """Samples less parameters."""
-        return self.residual.size - self.model.parameter_count
+        return self.model.time_s.size - self.model.parameter_count
 
     @property
     def variance(self) -> float:
@@ -105,92 +103,71 @@ class _State(NamedTuple):
     """Where a fit is: parameters, what they leave, and the normal equations there."""
 
     parameters: FloatArray
-    residual: FloatArray
     squares: float
     normal: FloatArray
     gradient: FloatArray
 
 
-def fit(model: SwingModel, value: FloatArray, start: FloatArray, *, held: tuple[int, ...] = ()) -> Fit:
+def fit(model: SwingModel, start: FloatArray, *, held: tuple[int, ...] = ()) -> Fit:
     """Find the parameters of least squares.
 
     Parameters
     ----------
     model : SwingModel
         With fewer parameters than the record has samples.
-    value : ndarray, shape (n,)
-        The record.
     start : ndarray
         Parameters to start from; of the linear ones only a bent wave's count.
     held : tuple of int
         Parameters that stay as they are: frequencies or decays.
     """
+    fewer = _with_fewer_equations(model, start)
     free = np.setdiff1d(np.arange(model.parameter_count), held)
-    state, damping = _at(model, value, model.settle(start, value)[0]), _FIRST_DAMPING
-    if value.size > _MANY:
-        part, chosen = _part(model)
-        near = _tried(model, value, fit(part, value[chosen], start, held=held).parameters)
-        state = near if near is not None and near.squares < state.squares else state
+    state, damping = _at(fewer, fewer.settle(start)[0]), _FIRST_DAMPING
     for _ in range(_MOST_STEPS):
-        normal = state.normal[np.ix_(free, free)]
         step = np.zeros(model.parameter_count)
-        while True:
-            step[free] = solve(normal, state.gradient[free], damping)
-            tried = _tried(model, value, state.parameters + step)
-            if tried is not None and tried.squares <= state.squares:
-                break
+        step[free] = solve(state.normal[np.ix_(free, free)], state.gradient[free], damping)
+        tried, still = _tried(fewer, state.parameters + step), _is_still(model, step, state)
+        if tried is not None and tried.squares <= state.squares:
+            state, damping = tried, max(damping / 30.0, 1e-14)
+        else:
+            # At the optimum rounding decides whether a step gains; elsewhere a shorter one does.
+            still = still and damping < 1.0
             damping *= 10.0
-            if damping > _LARGEST_DAMPING:
-                return Fit(model, state.parameters, state.residual, state.normal)
-        done = _is_still(model, step, state)
-        state, damping = tried, max(damping / 30.0, 1e-14)
-        if done:
+        if still or damping > _LARGEST_DAMPING:
             break
-    return Fit(model, state.parameters, state.residual, state.normal)
+    return Fit(model, state.parameters, state.squares, state.normal)
 
 
-def best_fit(model: SwingModel, value: FloatArray, starts: Sequence[FloatArray]) -> Fit | None:
-    """Fit from each of several starts and give the best; of many samples some say which one that is.
-
-    Parameters
-    ----------
-    model, value
-        As for `fit`.
-    starts : sequence of ndarray
-        None is found from none.
-    """
-    part, chosen = _part(model) if value.size > _MANY and len(starts) > 1 else (model, slice(None))
-    fits = [fit(part, value[chosen], start) for start in starts]
-    best = min(fits, key=lambda each: each.squares, default=None)
-    return best if best is None or part is model else fit(model, value, best.parameters)
+def best_fit(model: SwingModel, starts: Iterable[FloatArray]) -> Fit | None:
+    """Fit from each of several starts and give the best; None from none."""
+    return min((fit(model, start) for start in starts), key=lambda each: each.squares, default=None)
 
 
-def _part(model: SwingModel) -> tuple[SwingModel, NDArray[np.int64]]:
-    """Take some thousand samples with both ends of the record, at uneven steps: even ones would alias."""
-    rank = np.arange(_FEW)
-    chosen = ((rank + np.modf(_UNEVEN * rank)[0]) * (model.time_s.size - 1) / _FEW).astype(np.int64)
-    chosen = np.append(chosen, model.time_s.size - 1)
-    return replace(model, time_s=model.time_s[chosen], sampled_rad_s=model.highest_rad_s), chosen
+def _with_fewer_equations(model: SwingModel, start: FloatArray) -> SwingModel:
+    """Let as few equations stand for the samples as the waves allow."""
+    fastest = float(np.max(start[FREQUENCY : PER_MODE * model.modes : PER_MODE]))
+    harmonics = 1 if model.waveform is None else model.waveform.harmonics
+    samples = model.samples.for_waves(_ROOM * fastest, harmonics=harmonics)
+    return model if samples is model.samples else replace(model, samples=samples)
 
 
-def _at(model: SwingModel, value: FloatArray, parameters: FloatArray) -> _State:
+def _at(model: SwingModel, parameters: FloatArray) -> _State:
     """Solve for the linear parameters, and linearise; those of a bent wave take steps like others."""
     if model.waveform is None:
-        parameters, residual, jacobian = model.settle(parameters, value)
+        parameters, residual, jacobian = model.settle(parameters)
     else:
-        predicted, jacobian = model.evaluate(parameters)
-        residual = value - predicted
-    normal, gradient = jacobian.T @ jacobian, jacobian.T @ residual
-    return _State(parameters, residual, float(residual @ residual), normal, gradient)
+        residual, jacobian = model.linearise(parameters)
+    squares = model.samples.rest + float(residual @ residual)
+    return _State(parameters, squares, jacobian.T @ jacobian, jacobian.T @ residual)
 
 
-def _tried(model: SwingModel, value: FloatArray, parameters: FloatArray) -> _State | None:
+def _tried(model: SwingModel, parameters: FloatArray) -> _State | None:
     """Go to parameters, and solve for the linear ones, if they are a swing's."""
-    end_s = model.time_s[-1]
+    end_s = model.duration_s
     frequency, decay = (parameters[which : PER_MODE * model.modes : PER_MODE] for which in (FREQUENCY, DECAY))
-    swings = (frequency * end_s > np.pi) & (frequency <= model.highest_rad_s)
+    swings = (frequency * end_s > np.pi) & (frequency <= model.samples.highest_rad_s)
     swings &= (decay * end_s > -_FASTEST_GROWTH) & (decay < frequency)
-    return _at(model, value, parameters) if swings.all() else None
+    return _at(model, parameters) if swings.all() else None
 
 
 def _is_still(model: SwingModel, step: FloatArray, state: _State) -> bool:
@@ -201,7 +178,7 @@ def _is_still(model: SwingModel, step: FloatArray, state: _State) -> bool:
     # Against the standard deviation of each parameter with the others known, which is not the larger one.
     weighed = moved * np.sqrt(np.diag(state.normal)[nonlinear])
     return bool(
-        np.max(moved) * model.time_s[-1] < _STILL or np.max(weighed) <= _STILL_STD * np.sqrt(variance)
+        np.max(moved) * model.duration_s < _STILL or np.max(weighed) <= _STILL_STD * np.sqrt(variance)
     )
 
 

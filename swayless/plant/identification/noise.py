@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from swayless.plant.identification.fitting import Fit
-from swayless.plant.identification.start import on_grid
+from swayless.plant.identification.start import fast_length, on_grid
 from swayless.plant.identification.swing_model import DECAY, FREQUENCY, PER_MODE
 
 _COLOUR_SIGNIFICANCE = 0.01
@@ -161,8 +161,9 @@ def loud_part(fit: Fit) -> LoudPart | None:
 def _power_nearby(fit: Fit, index: int) -> tuple[float, int]:
     """Sum the periodogram of the residual around a mode; give how many frequencies that were."""
     grid = on_grid(fit.model.time_s, fit.residual)
-    power = np.abs(np.fft.rfft(grid.value)) ** 2
-    bin_rad_s = 2.0 * np.pi / (grid.value.size * grid.cell_s)
+    size = fast_length(grid.value.size)
+    power = np.abs(np.fft.rfft(grid.value, size)) ** 2
+    bin_rad_s = 2.0 * np.pi / (size * grid.cell_s)
     last = min(power.size - 1, int(grid.highest_rad_s / bin_rad_s))
     mode = fit.mode(index)
     centre = mode[FREQUENCY] / bin_rad_s

@@ -5,6 +5,7 @@ Not for: the numbers of what is shown.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from swayless.errors import PlantError
 from swayless.plant.identification.fitting import Fit, best_fit, fit, with_drift, with_parameters
 from swayless.plant.identification.noise import noise_near
 from swayless.plant.identification.record import FloatArray
+from swayless.plant.identification.samples import Samples
 from swayless.plant.identification.start import starts
 from swayless.plant.identification.swing_model import DECAY, FREQUENCY, PER_MODE, SwingModel
 
@@ -57,12 +59,12 @@ def single_mode(time_s: FloatArray, value: FloatArray) -> Fit:
     PlantError
         If the record shows no swing, or less than one.
     """
-    model = SwingModel(time_s)
+    model = SwingModel(Samples.of_record(time_s, value))
     drift, _ = np.linalg.qr(model.drift)
     level = value - drift @ (drift.T @ value)
     if float(np.max(np.abs(level))) <= 1e-12 * float(np.max(np.abs(value)) or 1.0):
         raise PlantError("the record shows no swing: its values lie on a straight line")
-    best = _best(model, value, level)
+    best = _best(model, level)
     if best is None:
         raise PlantError(
             "the record shows no swing: it lasts for less than one, or has too few samples of it"
@@ -73,19 +75,19 @@ def single_mode(time_s: FloatArray, value: FloatArray) -> Fit:
     ):
         raise PlantError("the record shows no swing: nothing stands out of the noise")
     swings = best.mode(0)[FREQUENCY] * time_s[-1] / (2.0 * np.pi)
-    return _with_bent_drift(best, value) if swings >= _SWINGS_FOR_BENT_DRIFT else best
+    return _with_bent_drift(best) if swings >= _SWINGS_FOR_BENT_DRIFT else best
 
 
-def _best(model: SwingModel, value: FloatArray, level: FloatArray) -> Fit | None:
+def _best(model: SwingModel, level: FloatArray) -> Fit | None:
     found = starts(model.time_s, level, _STARTS)
     worth = [start for start in found if start.energy >= _WORTH_A_FIT * found[0].energy]
-    return best_fit(model, value, [with_parameters(model, start[:2]) for start in worth])
+    return best_fit(model, (with_parameters(model, start[:2]) for start in worth))
 
 
 def _frequencies(fit_: Fit) -> float:
     """Count the frequencies that a search looks at: the chance that one of them stands out grows with it."""
     model = fit_.model
-    return max(1.0, model.highest_rad_s * float(model.time_s[-1]) / (2.0 * np.pi))
+    return max(1.0, model.samples.highest_rad_s * model.duration_s / (2.0 * np.pi))
 
 
 def chance_of(gained: float, better: Fit, *, frequencies: float = 1.0, excess: float = 1.0) -> float:
@@ -110,27 +112,25 @@ def chance_of(gained: float, better: Fit, *, frequencies: float = 1.0, excess: f
     return min(1.0, frequencies * float(fdtrc(PER_MODE, better.freedom, ratio)))
 
 
-def _with_bent_drift(straight: Fit, value: FloatArray) -> Fit:
+def _with_bent_drift(straight: Fit) -> Fit:
     """Let the drift bend, if the record says that it does."""
     model, start = with_drift(straight, _BENT_DRIFT)
     basis, _ = np.linalg.qr(model.drift)
     explained = basis.T @ straight.residual
-    enough = value.size > model.parameter_count + 2
+    enough = model.time_s.size > model.parameter_count + 2
     if not enough or chance_of(float(explained @ explained), straight) > _WORTH_A_LOOK:
         return straight
-    bent = fit(model, value, start)
+    bent = fit(model, start)
     return bent if chance_of(straight.squares - bent.squares, bent) < CHANCE else straight
 
 
-def second_mode(single: Fit, value: FloatArray, *, certain: bool = False) -> Fit | None:
+def second_mode(single: Fit, *, certain: bool = False) -> Fit | None:
     """Fit one mode more, if the record shows it.
 
     Parameters
     ----------
     single : Fit
         One mode.
-    value : ndarray, shape (n,)
-        The record.
     certain : bool
         Whether there is one, whatever the record says.
 
@@ -140,14 +140,14 @@ def second_mode(single: Fit, value: FloatArray, *, certain: bool = False) -> Fit
         Two modes, the first as before; None if noise alone may look like that.
     """
     model = replace(single.model, modes=2)
-    if value.size <= model.parameter_count + 2 or not (certain or _leaves_a_rest(single, value)):
+    if model.time_s.size <= model.parameter_count + 2 or not (certain or _leaves_a_rest(single)):
         return None
-    first, drift = single.mode(0), single.parameters[PER_MODE:]
-    starts_ = [
-        np.concatenate([first, [*start, 0.0, 0.0], drift])
-        for start in _second_starts(single, certain=certain)
-    ]
-    best = best_fit(model, value, starts_)
+    best = _best_second(model, single, _where_something_is_left(single, certain=certain))
+    seen = best or single
+    modes = range(seen.model.modes)
+    if certain or any(noise_near(seen, index).chance < _WORTH_A_TRY for index in modes):
+        beside = _best_second(model, single, _beside(single))
+        best = beside if best is None or (beside and beside.squares < best.squares) else best
     if best is None or certain:
         return best
     noise = noise_near(best, 1)
@@ -158,32 +158,43 @@ def second_mode(single: Fit, value: FloatArray, *, certain: bool = False) -> Fit
     return best if chance < CHANCE else None
 
 
-def _second_starts(single: Fit, *, certain: bool) -> list[tuple[float, float]]:
-    """Say where a second mode may be: where the residual has a peak, and beside the first one."""
-    frequency, decay = (float(single.mode(0)[which]) for which in (FREQUENCY, DECAY))
+def _best_second(model: SwingModel, single: Fit, seconds: Sequence[tuple[float, float]]) -> Fit | None:
+    """Fit a second mode from some frequencies and decays."""
+    first, drift = single.mode(0), single.parameters[PER_MODE:]
+    return best_fit(model, (np.concatenate([first, [*second, 0.0, 0.0], drift]) for second in seconds))
+
+
+def _where_something_is_left(single: Fit, *, certain: bool) -> list[tuple[float, float]]:
+    """Find the peaks of the residual that are no chance."""
     # The energy of a wave in white noise is exponentially distributed; 3: decays that are independent.
     looks = 3.0 * _frequencies(single)
-    peaks = [
+    found = starts(single.model.time_s, single.residual, 2)
+    return [
         (start.frequency_rad_s, start.decay_rad_s)
-        for start in starts(single.model.time_s, single.residual, 2)
-        if certain or looks * np.exp(-start.energy / single.variance) < _WORTH_A_LOOK
+        for start in found
+        if start.energy >= _WORTH_A_FIT * found[0].energy
+        and (certain or looks * np.exp(-start.energy / single.variance) < _WORTH_A_LOOK)
     ]
-    apart = np.pi / single.model.time_s[-1]
-    beside = [(frequency - apart, decay), (frequency + apart, decay)]
-    return [*peaks, *(beside if certain or noise_near(single, 0).chance < _WORTH_A_TRY else [])]
 
 
-def _leaves_a_rest(single: Fit, value: FloatArray) -> bool:
+def _beside(single: Fit) -> list[tuple[float, float]]:
+    """Look half a turn over the record to either side of a mode, where peaks are none of their own."""
+    frequency, decay = (float(single.mode(0)[which]) for which in (FREQUENCY, DECAY))
+    apart = np.pi / single.model.duration_s
+    return [(frequency - apart, decay), (frequency + apart, decay)]
+
+
+def _leaves_a_rest(single: Fit) -> bool:
     """Whether a mode leaves enough of the record to matter."""
     drift = single.model.drift @ single.parameters[PER_MODE:]
-    swing = value - single.residual - drift
+    swing = single.model.samples.value - single.residual - drift
     return single.squares > _SMALLEST_REST**2 * float(swing @ swing)
 
 
 def turns_apart(two: Fit) -> float:
     """Count the turns that two modes go apart over the record: beats, or parts of one."""
     difference = two.mode(1)[FREQUENCY] - two.mode(0)[FREQUENCY]
-    return float(abs(difference) * two.model.time_s[-1] / (2.0 * np.pi))
+    return float(abs(difference) * two.model.duration_s / (2.0 * np.pi))
 
 
 def are_told_apart(two: Fit) -> bool:

@@ -60,7 +60,7 @@ def possible_waveform(single: Fit, record: SwingRecord, pendulum: bool | None) -
     return None
 
 
-def bent(model: SwingModel, parameters: FloatArray, record: SwingRecord, waveform: Waveform) -> Fit:
+def bent(model: SwingModel, parameters: FloatArray, waveform: Waveform) -> Fit:
     """Fit the bent wave, starting at the frequency whose lagging phase is nearest to the linear one.
 
     Parameters
@@ -69,7 +69,6 @@ def bent(model: SwingModel, parameters: FloatArray, record: SwingRecord, wavefor
         Of linear modes.
     parameters : ndarray, shape (model.parameter_count,)
         The first mode is that of the load on a rope.
-    record : SwingRecord
     waveform : Waveform
     """
     start = parameters.copy()
@@ -81,7 +80,7 @@ def bent(model: SwingModel, parameters: FloatArray, record: SwingRecord, wavefor
     start[FREQUENCY] /= 1.0 - slope
     turn = complex(start[COSINE], -start[SINE]) * np.exp(1j * start[FREQUENCY] * late)
     start[COSINE], start[SINE] = turn.real, -turn.imag
-    return fit(replace(model, waveform=waveform), record.value, start)
+    return fit(replace(model, waveform=waveform), start)
 
 
 def first_angle_rad(found: Fit) -> float:

@@ -25,7 +25,7 @@ _LARGEST_DECAY_RATIO = 0.6
 
 _MOST_CELLS = 2**19
 _EVEN = 0.02
-_FINER = 4
+_FINER = 2
 _PEAKS_PER_DECAY = 4
 
 
@@ -83,7 +83,7 @@ def starts(time_s: FloatArray, value: FloatArray, count: int) -> list[Start]:
     (3.0, 0.02)
     """
     grid = on_grid(time_s, value)
-    size = 2 ** int(np.ceil(np.log2(2 * grid.value.size)))
+    size = fast_length(2 * grid.value.size)
     frequency = 2.0 * np.pi / (size * grid.cell_s) * np.arange(size // 2 + 1)
     cells_s = grid.cell_s * np.arange(grid.value.size)
     lowest = 2.0 * np.pi * FEWEST_SWINGS / time_s[-1]
@@ -95,6 +95,13 @@ def starts(time_s: FloatArray, value: FloatArray, count: int) -> list[Start]:
         energy[(frequency < max(lowest, decay / _LARGEST_DECAY_RATIO)) | (frequency > grid.highest_rad_s)] = 0
         found += [Start(float(frequency[peak]), decay, float(energy[peak])) for peak in _peaks(energy)]
     return _apart(found, 2.0 * np.pi / time_s[-1])[:count]
+
+
+def fast_length(least: int) -> int:
+    """Give the length from `least` on that a fast Fourier transform likes."""
+    from scipy.fft import next_fast_len
+
+    return int(next_fast_len(least, real=True))
 
 
 def _peaks(energy: FloatArray) -> list[int]:

@@ -88,8 +88,8 @@ class IdentifiedSwing:
         return float(np.ptp(self.middle(self.record.time_s)))
 
     def middle(self, time_s: FloatArray) -> FloatArray:
-        """Give the middle of the swing, offset and drift, at times from the first sample to the last."""
-        model = replace(self.fit.model, time_s=time_s - self.record.time_s[0])
+        """Give the middle of the swing, offset and drift, at times of the record's clock."""
+        model = self.fit.model.at(time_s - self.record.time_s[0])
         return np.asarray(model.drift @ self.fit.parameters[PER_MODE * model.modes :])
 
 
@@ -140,13 +140,13 @@ def identify_swing(
     if double is None or are_told_apart(double):
         found = _identified(record, taken.fit)
     elif modes is None and turns_apart(double) < _SAME_FREQUENCY_TURNS:
-        found = _identified(record, single, mixture=_modes(record, double))
+        found = _identified(record, single, mixture=_modes(double))
     else:
         raise PlantError(_not_told_apart(double, record))
     if not others:
         return found
     kinds = {each.fit.model.waveform is None for each in (taken, *others)}
-    return _covering_all(found, [_modes(record, other.fit) for other in others], decided=len(kinds) == 1)
+    return _covering_all(found, [_modes(other.fit) for other in others], decided=len(kinds) == 1)
 
 
 def _not_told_apart(double: Fit, record: SwingRecord) -> str:
@@ -161,7 +161,7 @@ def _identified(
     record: SwingRecord, found: Fit, *, mixture: tuple[IdentifiedMode, ...] = ()
 ) -> IdentifiedSwing:
     """Give what a fit says; a mixture of modes that fits better, at one frequency, widens the uncertainty."""
-    modes = _modes(record, found)
+    modes = _modes(found)
     if mixture:
         modes = (_widened(modes[0], mixture),)
     swinging = [index for index, mode in enumerate(modes) if _swings(mode, record)]
@@ -169,7 +169,7 @@ def _identified(
         raise PlantError(_no_swing(modes[0], record))
     swinging.sort(key=lambda index: -found.amplitude(index))
     by_amplitude = tuple(modes[index] for index in swinging)
-    bounded = _bounded(record, found)
+    bounded = _bounded(found)
     return IdentifiedSwing(record, bounded, by_amplitude, noise_near(bounded, swinging[0]), not mixture)
 
 
@@ -224,7 +224,7 @@ def _with_spread(mode: IdentifiedMode, frequency_hz: float, damping_ratio: float
     )
 
 
-def _bounded(record: SwingRecord, found: Fit) -> Fit:
+def _bounded(found: Fit) -> Fit:
     """Hold damping at 0 where it came out below."""
     decays = [PER_MODE * index + DECAY for index in range(found.model.modes)]
     growing = tuple(index for index in decays if found.parameters[index] < 0.0)
@@ -232,12 +232,12 @@ def _bounded(record: SwingRecord, found: Fit) -> Fit:
         return found
     bounded = found.parameters.copy()
     bounded[list(growing)] = 0.0
-    return fit(found.model, record.value, bounded, held=growing)
+    return fit(found.model, bounded, held=growing)
 
 
-def _modes(record: SwingRecord, found: Fit) -> tuple[IdentifiedMode, ...]:
+def _modes(found: Fit) -> tuple[IdentifiedMode, ...]:
     """Turn a fit into modes; what is uncertain is so as if damping could be below 0."""
-    covariance, bounded = found.covariance(), _bounded(record, found)
+    covariance, bounded = found.covariance(), _bounded(found)
     return tuple(
         _mode(bounded, index, noise_near(found, index).scale ** 2 * covariance)
         for index in range(found.model.modes)
@@ -251,7 +251,7 @@ def _mode(found: Fit, index: int, covariance: FloatArray) -> IdentifiedMode:
     cosine, sine = damped / undamped, decay / undamped
     turn = np.array([[cosine, sine], [-cosine * sine / undamped, cosine**2 / undamped]])
     columns = [PER_MODE * index + which for which in (FREQUENCY, DECAY)]
-    numerical = (_NUMERICAL / found.model.time_s[-1]) ** 2 * np.eye(2)
+    numerical = (_NUMERICAL / found.model.duration_s) ** 2 * np.eye(2)
     spread = turn @ (covariance[np.ix_(columns, columns)] + numerical) @ turn.T
     cut_frequency, cut_ratio = cut_off(found, decay / undamped) if index == 0 else (0.0, 0.0)
     return IdentifiedMode(
@@ -270,7 +270,7 @@ def fitted_values(found: IdentifiedSwing, time_s: FloatArray) -> FloatArray:
     ----------
     found : IdentifiedSwing
     time_s : ndarray
-        Rising; on the clock of the record, first and last sample included.
+        On the clock of the record.
     """
-    model = replace(found.fit.model, time_s=time_s - found.record.time_s[0])
+    model = found.fit.model.at(time_s - found.record.time_s[0])
     return model.evaluate(found.fit.parameters)[0]

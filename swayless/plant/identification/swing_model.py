@@ -8,13 +8,14 @@ Not for: finding the parameters.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swayless.plant.identification.record import FloatArray
+from swayless.plant.identification.samples import Samples
 from swayless.plant.identification.waveform import Waveform, lag_s
 
 PER_MODE = 4
@@ -23,27 +24,33 @@ FREQUENCY, DECAY, COSINE, SINE = range(PER_MODE)
 
 @dataclass(frozen=True, eq=False)
 class SwingModel:
-    """Modes, offset and drift at the times of a record.
+    """Modes, offset and drift for the samples of a record, or for the equations that stand for them.
 
     Parameters
     ----------
-    time_s : ndarray, shape (n,)
-        From 0 on.
+    samples : Samples
     modes : int
         How many.
     drift_degree : int
         Degree of the polynomial; 1 for an offset and a straight drift.
     waveform : Waveform or None
         What large swings do to the first mode; None for a linear one.
-    sampled_rad_s : float or None
-        `highest_rad_s` where these times are a part of a record; None for a whole one.
     """
 
-    time_s: FloatArray
+    samples: Samples
     modes: int = 1
     drift_degree: int = 1
     waveform: Waveform | None = None
-    sampled_rad_s: float | None = None
+
+    @property
+    def time_s(self) -> FloatArray:
+        """Where the model has its values, from 0 on."""
+        return self.samples.time_s
+
+    @property
+    def duration_s(self) -> float:
+        """Of the record."""
+        return self.samples.duration_s
 
     @property
     def parameter_count(self) -> int:
@@ -51,14 +58,14 @@ class SwingModel:
         return PER_MODE * self.modes + self.drift_degree + 1
 
     @cached_property
-    def highest_rad_s(self) -> float:
-        """Frequency of two samples a swing, above which waves look like slower ones."""
-        return self.sampled_rad_s or float(np.pi / np.median(np.diff(self.time_s)))
-
-    @cached_property
     def drift(self) -> FloatArray:
         """Legendre polynomials over the record, shape (n, drift_degree + 1)."""
-        return np.polynomial.legendre.legvander(2.0 * self.time_s / self.time_s[-1] - 1.0, self.drift_degree)
+        inside = 2.0 * self.time_s / self.duration_s - 1.0
+        return np.asarray(np.polynomial.legendre.legvander(inside, self.drift_degree))
+
+    def at(self, time_s: FloatArray) -> SwingModel:
+        """Give the model at other times, for its values there."""
+        return replace(self, samples=replace(self.samples, time_s=time_s))
 
     def evaluate(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give the model's values, shape (n,), and their derivatives, shape (n, parameter_count)."""
@@ -71,7 +78,7 @@ class SwingModel:
                 jacobian[:, columns][:, COSINE], jacobian[:, columns][:, SINE] = wave.real, wave.imag
         return self._weigh(parameters, jacobian), jacobian
 
-    def settle(self, parameters: FloatArray, value: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def settle(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Solve for the linear parameters, amplitudes and drift: variable projection.
 
         Of a bent wave the lag and the bend are those of the amplitudes given.
@@ -79,16 +86,30 @@ class SwingModel:
         Returns
         -------
         parameters, residual, jacobian : ndarray
-            There: all parameters, record less model, and the derivatives of the model.
+            There: all parameters, what they leave of the samples or equations, and the derivatives of those.
         """
         predicted, jacobian = self.evaluate(parameters)
         linear = np.ones(self.parameter_count, dtype=bool)
         for nonlinear in (FREQUENCY, DECAY):
             linear[nonlinear : PER_MODE * self.modes : PER_MODE] = False
-        columns = jacobian[:, linear]
+        columns = self.samples.left_sides(jacobian[:, linear])
         settled = parameters.copy()
-        settled[linear] += solve(columns.T @ columns, columns.T @ (value - predicted))
-        return settled, value - self._weigh(settled, jacobian), jacobian
+        settled[linear] += solve(columns.T @ columns, columns.T @ self._left(predicted))
+        residual = self._left(self._weigh(settled, jacobian))
+        of_equations = np.empty_like(jacobian)
+        of_equations[:, linear], of_equations[:, ~linear] = (
+            columns,
+            self.samples.left_sides(jacobian[:, ~linear]),
+        )
+        return settled, residual, of_equations
+
+    def linearise(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give what the model leaves of the samples or equations, and the derivatives of those."""
+        predicted, jacobian = self.evaluate(parameters)
+        return self._left(predicted), self.samples.left_sides(jacobian)
+
+    def _left(self, predicted: FloatArray) -> FloatArray:
+        return self.samples.value - self.samples.left_sides(predicted)
 
     def _weigh(self, parameters: FloatArray, jacobian: FloatArray) -> FloatArray:
         """Give the values for amplitudes, and fill in the derivatives that depend on them."""

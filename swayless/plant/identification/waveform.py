@@ -56,6 +56,11 @@ class Waveform:
     quantity: Quantity
     averaging: float
 
+    @property
+    def harmonics(self) -> int:
+        """Number of the highest harmonic."""
+        return max(harmonic for harmonic, _ in self.coefficients)
+
     def angle_per_value(self, frequency_rad_s: float) -> float:
         """Give the angle in rad for one unit of the record: L = g / w^2 hangs below the suspension."""
         if self.quantity is Quantity.position:
@@ -82,7 +87,7 @@ class Waveform:
         """
         square = (scale * np.abs(wave)) ** 2
         value, turned, grown, scaled = np.zeros(wave.size), np.zeros_like(wave), *np.zeros((2, wave.size))
-        for harmonic in (1, 3, 5):
+        for harmonic in range(1, self.harmonics + 1, 2):
             orders = {order: each for (of, order), each in self.coefficients.items() if of == harmonic}
             size = np.polynomial.polynomial.polyval(square, [orders.get(order, 0.0) for order in range(3)])
             growth = np.polynomial.polynomial.polyval(

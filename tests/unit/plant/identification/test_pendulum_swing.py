@@ -5,6 +5,7 @@ import pytest
 
 from swayless.errors import PlantError
 from swayless.plant.identification import Quantity, SwingRecord, identify_swing
+from swayless.plant.identification.samples import Samples
 from swayless.plant.identification.swing_model import SwingModel
 from swayless.plant.identification.waveform import WAVEFORMS
 from tests.unit.plant.identification.swings import Truth, pendulum_swing
@@ -91,7 +92,8 @@ def test_a_pendulum_needs_a_unit():
 @pytest.mark.parametrize("waveform", [None, *WAVEFORMS.values()])
 @pytest.mark.parametrize("decay_rad_s", [0.0, 0.03, -0.01])
 def test_the_jacobian_is_that_of_the_model(waveform, decay_rad_s):
-    model = SwingModel(np.linspace(0.0, 20.0, 101), modes=2, drift_degree=2, waveform=waveform)
+    samples = Samples.of_record(np.linspace(0.0, 20.0, 101), np.zeros(101))
+    model = SwingModel(samples, modes=2, drift_degree=2, waveform=waveform)
     parameters = np.array([1.3, decay_rad_s, 0.3, 0.2, 2.1, 0.02, 0.1, -0.2, 0.1, 0.2, 0.3])
     _, jacobian = model.evaluate(parameters)
     steps = 1e-6 * np.eye(parameters.size)

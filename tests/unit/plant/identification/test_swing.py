@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from swayless.errors import PlantError
-from swayless.plant.identification import SwingRecord, identify_swing
+from swayless.plant.identification import Quantity, SwingRecord, identify_swing
 from tests.unit.plant.identification.swings import Truth, random_record
 
 TIME_S = np.linspace(0.0, 100.0, 4001)
@@ -140,26 +140,22 @@ def test_the_unit_of_the_values_does_not_matter(size):
     assert scaled.modes[0].amplitude == pytest.approx(size * plain.modes[0].amplitude, rel=1e-6)
 
 
-def test_long_records_end_at_the_optimum_of_all_samples():
-    time_s = np.arange(60_000) * 1e-3
-    value = noisy(Truth(19.0, 0.001), 0.3, 4, time_s)
-    found = identify_swing(SwingRecord(time_s, value))
-    assert len(found.fit.residual) == time_s.size
-    for slip in (-1e-6, 1e-6):
-        beside = found.fit.parameters * (1.0 + slip * (np.arange(found.fit.parameters.size) == 0))
-        _, residual, _ = found.fit.model.settle(beside, value)
-        assert residual @ residual > found.fit.squares
-
-
-def test_a_hundred_thousand_samples_take_less_than_a_second():
-    time_s = np.arange(100_000) * 1e-3
-    record = SwingRecord(time_s, noisy(Truth(0.5, 0.003), 0.1, 2, time_s))
-    identify_swing(record)
+@pytest.mark.parametrize(
+    ("frequency_hz", "quantity", "uneven"),
+    [(0.5, Quantity.angle, True), (19.0, Quantity.value, False)],
+    ids=["crane, uneven", "arm"],
+)
+def test_a_hundred_thousand_samples_take_less_than_a_second(frequency_hz, quantity, uneven):
+    rng = np.random.default_rng(2)
+    time_s = np.sort(rng.uniform(0.0, 100.0, 100_000)) if uneven else np.arange(100_000) * 1e-3
+    truth = Truth(frequency_hz, 0.001, 0.2)
+    other = 0.05 * np.cos(2.2 * np.pi * frequency_hz * time_s) + 2e-5 * time_s**2
+    record = SwingRecord(time_s, noisy(truth, 0.02, 2, time_s) + other, quantity)
     start = time.process_time()
-    mode = identify_swing(record).modes[0]
+    mode = identify_swing(record, pendulum=False if uneven else None).modes[0]
     # 1 s is what is promised, on a machine of its own; what other work on it costs is left room for.
-    assert time.process_time() - start < 2.0
-    assert mode.frequency_hz == pytest.approx(0.5, rel=1e-4)
+    assert time.process_time() - start < 3.0
+    assert np.max(np.abs(deviations(mode, truth))) < 3.5
 
 
 def test_what_dies_away_within_a_swing_is_refused():
