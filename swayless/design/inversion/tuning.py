@@ -1,0 +1,191 @@
+"""Parameters of an elastic drive corrected by measured moves, one experiment after another.
+
+The command of a move is the inverse of an estimated drive; what the load then does wrong says how the
+estimate is wrong. Two steps lead from one estimate to the next: the paper's, down the gradient of the cost,
+and a scaled one.
+
+Not for: reading records, or the command of the next move (`inverse`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from swayless.design.inversion.misfit import MeasuredMove, Misfit, mean, with_values
+from swayless.design.inversion.motion import PolynomialMotion
+from swayless.design.optimal.linear_plant import LinearPlant
+from swayless.design.optimal.sampling import Sampled, convolved
+from swayless.design.shaper import FloatArray
+from swayless.errors import DesignError, PlantError
+from swayless.plant.elastic_drive import ElasticDrive, Ratio
+
+PAPER_GAIN = 1e-3
+PAPER_WEIGHTS = (1e-3, 1e-3, 1.0, 1.0, 10.0)
+"""Step size and diagonal of R^-1, in the order of `TUNED`: Visioli and Piazzi (2007), section 5.1."""
+
+_ROUNDS = 60
+_HALVINGS = 12
+_CONVERGED = 1e-6  # of a parameter: a step that changes none by more is the last
+_LONGEST = 1.0  # of a step, in logarithms: farther, a line says nothing
+_KNOWN_TO = 0.5  # in logarithms: how well each parameter is known before the record
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """From one estimate to the next.
+
+    Parameters
+    ----------
+    drive : ElasticDrive
+        The next estimate.
+    expected_cost : float
+        Cost that the next estimate leaves unexplained: noise, and what the model does not know.
+    """
+
+    drive: ElasticDrive
+    expected_cost: float
+
+
+def gradient(drive: ElasticDrive, motion: PolynomialMotion, moves: Sequence[MeasuredMove]) -> FloatArray:
+    """Give the derivative of the cost by each parameter of `TUNED`, from measured positions alone.
+
+    Raises
+    ------
+    DesignError
+        If the drive has no damping.
+
+    References
+    ----------
+    Visioli and Piazzi (2007), eqs 10 and 14 to 19: the measured positions pass through P1 + P2 + P3, here
+    straight from one to the next.
+    """
+    _check_damping(drive)
+    each = [
+        [-mean(move.error(motion) * _filtered(ratio, move, motion.start)) for ratio in drive.sensitivities]
+        for move in moves
+    ]
+    return np.asarray(np.mean(each, axis=0))
+
+
+def paper_step(
+    drive: ElasticDrive,
+    motion: PolynomialMotion,
+    moves: Sequence[MeasuredMove],
+    *,
+    gain: float = PAPER_GAIN,
+    weights: Sequence[float] = PAPER_WEIGHTS,
+) -> Step:
+    """Take one step down the gradient.
+
+    Parameters
+    ----------
+    drive : ElasticDrive
+        The estimate whose inverse commanded the moves.
+    motion : PolynomialMotion
+        What the load should have done.
+    moves : sequence of MeasuredMove
+        What it did.
+    gain, weights
+        Step size, and the diagonal of R^-1.
+
+    Raises
+    ------
+    DesignError
+        If the drive has no damping, or the step leads to a drive that cannot be.
+
+    References
+    ----------
+    Visioli and Piazzi (2007), eq 9.
+    """
+    values = drive.tuned - gain * np.asarray(weights) * gradient(drive, motion, moves)
+    try:
+        stepped = with_values(drive, values)
+    except PlantError as error:
+        raise DesignError(f"the step leads to {error}; take a smaller one, or the scaled one") from error
+    return Step(stepped, Misfit(drive, motion, moves).cost(stepped))
+
+
+def scaled_step(drive: ElasticDrive, motion: PolynomialMotion, moves: Sequence[MeasuredMove]) -> Step:
+    """Take the step that explains the moves best: Gauss and Newton in logarithms, searched along each line.
+
+    All of it on the record, without another experiment: see `Misfit`. Each parameter is held to its value as
+    one known to within a half, with what stays unexplained as noise: so noise moves none that the motion
+    hardly shows, and load mass, damping and stiffness change by their ratios only.
+
+    Parameters are those of `paper_step`.
+
+    Raises
+    ------
+    DesignError
+        If the drive has no damping.
+
+    References
+    ----------
+    Nocedal and Wright (2006), "Numerical optimization", section 10.3.
+    """
+    _check_damping(drive)
+    misfit = Misfit(drive, motion, moves)
+    found, moved = drive, np.zeros(drive.tuned.size)
+    for _ in range(_ROUNDS):
+        step, noise = _gauss_newton(misfit.left(found), misfit.slopes(found), moved)
+        share = _share(misfit, found, moved, step, noise)
+        if share == 0.0:
+            break
+        moved = moved + share * step
+        found = with_values(drive, drive.tuned * np.exp(moved))
+        if np.abs(step).max() < _CONVERGED:
+            break
+    return Step(found, misfit.cost(found))
+
+
+def _gauss_newton(left: FloatArray, slopes: FloatArray, moved: FloatArray) -> tuple[FloatArray, float]:
+    """Give the step in logarithms, at most of length 1, and the weight of what is known before the record."""
+    size = moved.size
+    free, *_ = np.linalg.lstsq(slopes, left, rcond=None)
+    noise = float(np.linalg.norm(left - slopes @ free)) / np.sqrt(max(1, left.size - size)) / _KNOWN_TO
+    held = np.vstack([slopes, noise * np.eye(size)])
+    step, *_ = np.linalg.lstsq(held, np.append(left, -noise * moved), rcond=None)
+    return step / max(1.0, float(np.abs(step).max()) / _LONGEST), noise
+
+
+def _share(misfit: Misfit, found: ElasticDrive, moved: FloatArray, step: FloatArray, noise: float) -> float:
+    """Give the largest share of a step, halved from 1 on, that leaves less than there is; 0 for none."""
+    left = misfit.left(found)
+    before = float(left @ left + noise**2 * (moved @ moved))
+    for share in 0.5 ** np.arange(_HALVINGS):
+        try:
+            left = misfit.left(with_values(found, found.tuned * np.exp(share * step)))
+        except PlantError:  # an unstable loop: a shorter step leads to a stable one
+            continue
+        there = moved + share * step
+        if float(left @ left + noise**2 * (there @ there)) < before:
+            return float(share)
+    return 0.0
+
+
+def _filtered(ratio: Ratio, move: MeasuredMove, start: float) -> FloatArray:
+    """Pass positions, straight from one to the next, through a transfer function at rest."""
+    from scipy.linalg import expm  # here, because it is heavy
+
+    plant = LinearPlant.from_transfer_function(ratio.numerator.tolist(), ratio.denominator.tolist())
+    inputs = move.position - start
+    order = plant.order
+    block = np.zeros((order + 2, order + 2))
+    block[:order, :order], block[:order, order] = plant.a * move.step_s, plant.b * move.step_s
+    block[order, order + 1] = 1.0
+    exact = expm(block)
+    late, early = exact[:order, order + 1], exact[:order, order] - exact[:order, order + 1]
+    answers = (
+        convolved(plant.c @ Sampled(exact[:order, :order], into).reach(inputs.size - 1)[:, ::-1], values)
+        for into, values in ((early, inputs), (late, inputs[1:]))
+    )
+    return np.asarray(plant.d * inputs + sum(answers))
+
+
+def _check_damping(drive: ElasticDrive) -> None:
+    """Refuse a transmission without damping: its logarithm, and the zero that it makes, are not there."""
+    if drive.damping == 0.0:
+        raise DesignError("damping = 0: tuning needs a first guess > 0")
