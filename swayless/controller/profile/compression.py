@@ -107,7 +107,7 @@ def _ends(values: FloatArray, degree: int, near: float) -> NDArray[np.int64]:
     """
     order, size = degree + 1, len(values)
     bent = np.abs(np.diff(values, order, axis=0)) > 1.1 * 2.0**order * near
-    bends = np.append(np.flatnonzero(bent.reshape(len(bent), -1).any(axis=1)), size)
+    bends = np.append(np.flatnonzero(bent.reshape(len(bent), values[:1].size).any(axis=1)), size)
     ticks = np.arange(size)
     latest = bends[np.searchsorted(bends, ticks)] + order
     return np.asarray(np.minimum(np.minimum(latest, size), ticks + LARGEST_LENGTH))

@@ -14,8 +14,10 @@ from swayless.controller.profile.pieces import Pieces, dtype_of
 from swayless.design.shaper import FloatArray
 from swayless.errors import ControllerError
 
-LARGEST_POSITION = 1e15
-"""Largest start and target: with the bounds below, no product of the block can overflow, in float neither."""
+LARGEST_POSITION = 2.0**50
+"""Largest start, target and travel: with the bounds below, no product can overflow, in float neither."""
+
+LARGEST_INPUT = 1e30
 
 LARGEST_SHAPE, LARGEST_REST = 1e9, 1e3
 """Largest input, and largest position of rest after a stop, of a move by 1."""
@@ -42,7 +44,7 @@ class ProfileSettings:
     hold_ratio : float
         Reference that holds the plant, per unit of position; 0 where it stays anywhere by itself.
     max_travel : float
-        Largest distance of start and target, > 0, up to 1e15: what a limit of the rate leaves.
+        Largest distance of start and target, > 0, up to 2**50: what a limit of the rate leaves.
     first_position : float
         Where the block holds before any start has been good.
     number : NumberType
@@ -101,7 +103,7 @@ class ProfileSettings:
             "stop.rest": (stop.rest, wide),
             "extremes.shape": (np.array(self.extremes.shape), LARGEST_SHAPE),
             "extremes.rest": (np.array(self.extremes.rest), LARGEST_REST),
-            "limits": (np.array(self.limits), 1e30),
+            "limits": (np.array(self.limits), LARGEST_INPUT),
             "hold_ratio": (np.array([self.hold_ratio]), LARGEST_SHAPE),
             "first_position": (np.array([self.first_position]), wide),
             "max_travel": (np.array([self.max_travel]), wide),

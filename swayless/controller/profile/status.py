@@ -24,7 +24,7 @@ class ProfileStatus(IntFlag):
 _MEANINGS: dict[ProfileStatus, str] = {
     ProfileStatus.EXECUTE_IGNORED: "execute rose while a move or a stop played, which goes on",
     ProfileStatus.ABORT_HELD: "refused: abort was true when execute rose",
-    ProfileStatus.INPUT_NOT_FINITE: "refused: start or target is not finite, or beyond 1e15",
+    ProfileStatus.INPUT_NOT_FINITE: "refused: start or target is not finite, or beyond 2**50",
     ProfileStatus.LIMIT_EXCEEDED: "refused: the move, or a stop of it, would exceed the limits",
     ProfileStatus.TRAVEL_TOO_LONG: "refused: target less start is beyond the longest travel",
     ProfileStatus.START_ELSEWHERE: "refused: start is not where the block rests, the reference would jump",

@@ -18,6 +18,8 @@ from swayless.design.optimal.robustification import jordan_chain, rest_condition
 from swayless.design.optimal.sampling import Sampled, sampled
 from swayless.design.shaper import FloatArray
 
+_AT_0 = 1e-6  # of the fastest pole: what a double pole at 0 is moved by rounding, and more
+
 
 @dataclass(frozen=True, eq=False)
 class ShapeModel:
@@ -115,7 +117,10 @@ def shape_model(
     robustness = robustness or Robustness()
     plant.check()
     rest_conditions(plant, tick_s, 1.0, robustness)  # refuses what robustness, or this tick, cannot do
+    plant = plant.balanced
     at_rest, held = plant.equilibrium(1.0)
+    speeds = np.abs(plant.poles_rad_s)
+    held = 0.0 if speeds.min() <= _AT_0 * speeds.max() else held  # what is left there is rounding
     a, b, at_rest = _with_chains(plant, robustness, at_rest, held)
     kept = np.eye(b.size) if robustness.split_ratio is None else _all_but_the_modes(plant, b.size)
     output = np.append(plant.c, np.zeros(b.size - plant.order))

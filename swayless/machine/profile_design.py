@@ -1,0 +1,135 @@
+"""The design of a motion profile: a move, the constants of the block that plays it, and what is promised.
+
+Not for: finding the command, or generating code.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import swayless
+from swayless.controller.number import number_type
+from swayless.controller.profile import ProfileSettings
+from swayless.controller.profile.compression import raw_pieces
+from swayless.design.optimal import Command, LinearPlant, Robustness
+from swayless.machine.profile_design_move import ProfileMove
+from swayless.machine.profile_design_numbers import NumberedMove
+from swayless.machine.profile_design_proof import promised
+from swayless.machine.profile_design_settings import settings_for
+
+
+@dataclass(frozen=True)
+class ProfileGuarantee:
+    """What is promised of a block; proved for the numbers that run.
+
+    Parameters
+    ----------
+    final_error_ratio : float
+        How far the states may be from rest at the end of the move, each of its largest in the move.
+    stop_error_ratio : float
+        The same, after a stop from any tick.
+    """
+
+    final_error_ratio: float
+    stop_error_ratio: float
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileDesign:
+    """A motion profile that is proved.
+
+    Parameters
+    ----------
+    name : str
+        Prefix of every generated symbol.
+    source : str
+        Base name of the file that asked for it.
+    generator : str
+        Name and version of what made it.
+    move : ProfileMove
+        Command, plant and limits.
+    settings : ProfileSettings
+        Every constant of the block.
+    guarantee : ProfileGuarantee
+    """
+
+    name: str
+    source: str
+    generator: str
+    move: ProfileMove
+    settings: ProfileSettings
+    guarantee: ProfileGuarantee
+
+    @property
+    def numbered(self) -> NumberedMove:
+        """The move in the numbers of the block."""
+        return NumberedMove(self.move, self.settings.number)
+
+    @property
+    def table_bytes(self) -> tuple[int, int]:
+        """Size of the table of the shape: plain, and as it is."""
+        pieces, number = self.settings.pieces, self.settings.number
+        return raw_pieces(pieces.values(number)).stored_bytes(number), pieces.stored_bytes(number)
+
+    @property
+    def stop_bytes(self) -> tuple[int, int]:
+        """Size of the gains of the stop: plain, and as they are."""
+        pieces, number = self.settings.stop.pieces, self.settings.number
+        return raw_pieces(pieces.values(number)).stored_bytes(number), pieces.stored_bytes(number)
+
+
+def make_profile_design(
+    name: str,
+    source: str,
+    plant: LinearPlant,
+    robustness: Robustness,
+    command: Command,
+    limits: tuple[float, float],
+    rate_limit_per_s: float | None,
+    start: float,
+    target: float,
+    number: str = "double",
+) -> ProfileDesign:
+    """Make the block that plays a command, and prove it.
+
+    Parameters
+    ----------
+    name : str
+        Prefix of every generated symbol.
+    source : str
+        Base name of the file that asked for it.
+    plant : LinearPlant
+        From the command to the position that moves.
+    robustness : Robustness
+        Of the command; stops are as robust.
+    command : Command
+        From rest to rest.
+    limits : tuple of two floats
+        Lowest and highest input.
+    rate_limit_per_s : float or None
+        Largest change of the input per second.
+    start, target : float
+        Position before and after.
+    number : {"double", "float"}
+
+    Raises
+    ------
+    DesignError
+        If the command does not rest, or no stop keeps the limits; the message names the cause.
+    ControllerError
+        If there is no such number type, or the block cannot hold a value.
+
+    Examples
+    --------
+    >>> mass = LinearPlant([[0.0, 1.0], [0.0, 0.0]], [0.0, 1.0], [1.0, 0.0])
+    >>> command = Command(0.5, [1.0, 1.0, -1.0, -1.0], 0.0)
+    >>> made = make_profile_design(
+    ...     "mass", "mass.toml", mass, Robustness(), command, (-1.5, 1.5), None, 0.0, 1.0
+    ... )
+    >>> made.settings.stop.ticks, made.guarantee.final_error_ratio, made.table_bytes
+    (2, 1e-12, (32, 20))
+    """
+    move = ProfileMove(plant, command, limits, start, target, rate_limit_per_s, robustness).as_stored()
+    settings, proof = settings_for(NumberedMove(move, number_type(number)))
+    guarantee = ProfileGuarantee(promised(proof.final_error_ratio), promised(proof.stop_error_ratio))
+    return ProfileDesign(name, source, f"swayless {swayless.__version__}", move, settings, guarantee)

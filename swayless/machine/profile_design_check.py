@@ -1,0 +1,68 @@
+"""What a stored motion profile promises, proved again. Not for: whether its values can be read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from swayless.controller.profile import ProfileModel
+from swayless.errors import DesignError
+from swayless.machine.profile_design import ProfileDesign
+from swayless.machine.profile_design_proof import ProfileProof, proved
+from swayless.machine.profile_design_settings import block_model, check_own_move, longest_travel
+
+_NEAR = {"double": 1e-9, "float": 1e-6}
+"""How near a stored model must be to the plant's: another mathematical library moves last digits."""
+
+
+def problems_of(design: ProfileDesign) -> Iterator[tuple[str, str]]:
+    """Give the key and the reason of everything that is not as it is promised."""
+    settings, numbered = design.settings, design.numbered
+    try:
+        own = block_model(numbered)
+    except DesignError as error:
+        yield "plant", str(error)
+        return
+    if own.order != settings.model.order or not _near(settings.model, own, _NEAR[settings.number.name]):
+        yield "model", "is not the one of this plant, tick and robustness"
+        return
+    if settings.hold_ratio != numbered.hold_ratio:
+        yield "hold_ratio", f"must be {numbered.hold_ratio!r}, as of this plant"
+    if settings.pieces.ticks != design.move.command.values.size:
+        yield "table", f"lasts {settings.pieces.ticks} ticks, the command {design.move.command.values.size}"
+        return
+    yield from _of_proof(design, proved(numbered, settings.pieces, settings.model, settings.stop))
+    try:
+        check_own_move(numbered, settings)
+    except DesignError as error:
+        yield "limit", str(error)
+
+
+def _of_proof(design: ProfileDesign, proof: ProfileProof) -> Iterator[tuple[str, str]]:
+    """Compare what was found with what is stored."""
+    settings, promise = design.settings, design.guarantee
+    for what, found, promised in (
+        ("final_error_ratio", proof.final_error_ratio, promise.final_error_ratio),
+        ("stop_error_ratio", proof.stop_error_ratio, promise.stop_error_ratio),
+    ):
+        if not found <= promised:
+            yield f"guarantee.{what}", f"promises {promised:g}, what is stored leaves {found:.3g}"
+    if proof.extremes != settings.extremes:
+        yield "extremes", f"must be {proof.extremes}, of all that can be played"
+    most = longest_travel(design.numbered, proof)
+    if not settings.max_travel <= most:
+        yield "max_travel", f"= {settings.max_travel!r}: must be at most {most!r}, for the limit of the rate"
+
+
+def _near(stored: ProfileModel, own: ProfileModel, ratio: float) -> bool:
+    """Whether two models are the same but for rounding."""
+    for one, other in (
+        (stored.change, own.change),
+        (stored.input, own.input),
+        (stored.output, own.output),
+        (np.array([stored.feedthrough]), np.array([own.feedthrough])),
+    ):
+        if not (np.abs(one - other) <= ratio * max(1e-300, float(np.abs(other).max()))).all():
+            return False
+    return True

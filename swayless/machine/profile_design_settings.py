@@ -1,0 +1,139 @@
+"""From a move to the constants of the block that plays it, in a number type. Not for: storing them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swayless.controller.profile import (
+    MotionProfile,
+    Pieces,
+    ProfileInput,
+    ProfileModel,
+    ProfileSettings,
+    ProfileStatus,
+    StopLaw,
+)
+from swayless.controller.profile.compression import TOLERANCE_RATIO, compressed, raw_pieces
+from swayless.controller.profile.settings import LARGEST_POSITION
+from swayless.design.playing import ShapeLimits, Stop, shortest_stop
+from swayless.design.shaper import FloatArray
+from swayless.errors import DesignError
+from swayless.machine.profile_design_numbers import NumberedMove
+from swayless.machine.profile_design_proof import LARGEST_ERROR_RATIO, ProfileProof, proved, proved_table
+
+ADDED_ERROR_RATIO = {"double": 1e-10, "float": 1e-5}
+"""What pieces may add to the error that the plain table leaves at the end."""
+
+
+def settings_for(numbered: NumberedMove) -> tuple[ProfileSettings, ProfileProof]:
+    """Make the constants of a block, and prove them.
+
+    Raises
+    ------
+    DesignError
+        If the move does not rest, or no stop keeps the limits.
+    """
+    pieces = _pieces(numbered)
+    model = block_model(numbered)
+    stop, proof = _stop(numbered, pieces, model)
+    if proof.stop_error_ratio > LARGEST_ERROR_RATIO:
+        raise DesignError(
+            f"stop: leaves {proof.stop_error_ratio:.2g} of the states in {numbered.number.name}"
+        )
+    move = numbered.move
+    settings = ProfileSettings(
+        move.command.tick_s,
+        pieces,
+        model,
+        stop,
+        proof.extremes,
+        numbered.limits,
+        numbered.hold_ratio,
+        longest_travel(numbered, proof),
+        numbered.start,
+        numbered.number,
+    )
+    check_own_move(numbered, settings)
+    return settings, proof
+
+
+def longest_travel(numbered: NumberedMove, proof: ProfileProof) -> float:
+    """Give the longest travel that the limit of the rate allows."""
+    return proof.max_travel(numbered, numbered.move.rate_limit_per_s, LARGEST_POSITION)
+
+
+def block_model(numbered: NumberedMove) -> ProfileModel:
+    """Give the model in the number type."""
+    model, rounded = numbered.model, numbered.rounded_all
+    return ProfileModel(
+        rounded(model.change),
+        rounded(model.system.b),
+        rounded(model.output),
+        numbered.rounded(model.feedthrough),
+    )
+
+
+def check_own_move(numbered: NumberedMove, settings: ProfileSettings) -> None:
+    """Refuse a block that refuses the very move it was made for.
+
+    Raises
+    ------
+    DesignError
+        With the reasons of the block.
+    """
+    scalar = numbered.number.scalar
+    pins = ProfileInput(True, False, scalar(numbered.move.start), scalar(numbered.move.target))
+    status = ProfileStatus(MotionProfile(settings).step(pins).status)
+    if status:
+        raise DesignError(f"profile: the block refuses its own move in {numbered.number.name}: {status.name}")
+
+
+def _pieces(numbered: NumberedMove) -> Pieces:
+    """Find the smallest table that leaves hardly more at the end than the plain one, within the limits."""
+    raw = proved_table(numbered, raw_pieces(numbered.shape))
+    if raw.final_error_ratio > LARGEST_ERROR_RATIO:
+        raise DesignError(
+            f"command: leaves {raw.final_error_ratio:.2g} of the states that the move has had: must be at"
+            f" most {LARGEST_ERROR_RATIO:g}, the plant does not rest"
+        )
+    allowed = raw.final_error_ratio + ADDED_ERROR_RATIO[numbered.number.name]
+
+    def is_kept(pieces: Pieces) -> bool:
+        found = proved_table(numbered, pieces)
+        return found.final_error_ratio <= allowed and found.keeps_limits(numbered)
+
+    return compressed(numbered.shape, numbered.number, is_kept)
+
+
+def _stop(numbered: NumberedMove, pieces: Pieces, model: ProfileModel) -> tuple[StopLaw, ProfileProof]:
+    """Find the shortest stop, and the smallest table of it that keeps the limits in the number type."""
+    shape = pieces.values(numbered.number)
+    found = shortest_stop(numbered.model, shape, _shape_limits(numbered))
+    for gains in _tables(numbered, found, shape):
+        stop = StopLaw(gains, numbered.rounded_all(found.rest))
+        proof = proved(numbered, pieces, model, stop)
+        if proof.keeps_limits(numbered):
+            return stop, proof
+    raise DesignError(f"stop: in {numbered.number.name} its rounding exceeds the limits; widen them")
+
+
+def _tables(numbered: NumberedMove, found: Stop, shape: FloatArray) -> tuple[Pieces, Pieces]:
+    """Give the gains in few pieces, and as they are."""
+    # What the last input is multiplied by is made as large as the states are, so that all count alike.
+    units = np.ones(found.rest.size)
+    units[-1] = 2.0 ** np.round(np.log2(np.abs(shape).max()))
+    few = compressed(numbered.rounded_all(found.gains * units), numbered.number)
+    return Pieces(few.lengths, few.coefficients / units), raw_pieces(numbered.rounded_all(found.gains))
+
+
+def _shape_limits(numbered: NumberedMove) -> ShapeLimits:
+    """Give the limits of a move by 1, a little within, so that rounding keeps them."""
+    move, travel = numbered.move, numbered.travel
+    held = float(numbered.references(np.zeros(1))[0])
+    low, high = sorted((limit - held) / travel for limit in numbered.limits)
+    margin = 64.0 * TOLERANCE_RATIO[numbered.number.name]
+    within = margin * (high - low)
+    if move.rate_limit_per_s is None:
+        return ShapeLimits(low + within, high - within)
+    change = move.rate_limit_per_s * move.command.tick_s / abs(travel)
+    return ShapeLimits(low + within, high - within, change * (1.0 - margin))
