@@ -11,7 +11,6 @@ import swayless
 from swayless.controller.number import number_type
 from swayless.controller.profile import ProfileSettings
 from swayless.controller.profile.compression import raw_pieces
-from swayless.design.optimal import Command, LinearPlant, Robustness
 from swayless.machine.profile_design_move import ProfileMove
 from swayless.machine.profile_design_numbers import NumberedMove
 from swayless.machine.profile_design_proof import promised
@@ -78,18 +77,7 @@ class ProfileDesign:
         return raw_pieces(pieces.values(number)).stored_bytes(number), pieces.stored_bytes(number)
 
 
-def make_profile_design(
-    name: str,
-    source: str,
-    plant: LinearPlant,
-    robustness: Robustness,
-    command: Command,
-    limits: tuple[float, float],
-    rate_limit_per_s: float | None,
-    start: float,
-    target: float,
-    number: str = "double",
-) -> ProfileDesign:
+def make_profile_design(name: str, source: str, move: ProfileMove, number: str = "double") -> ProfileDesign:
     """Make the block that plays a command, and prove it.
 
     Parameters
@@ -98,18 +86,8 @@ def make_profile_design(
         Prefix of every generated symbol.
     source : str
         Base name of the file that asked for it.
-    plant : LinearPlant
-        From the command to the position that moves.
-    robustness : Robustness
-        Of the command; stops are as robust.
-    command : Command
-        From rest to rest.
-    limits : tuple of two floats
-        Lowest and highest input.
-    rate_limit_per_s : float or None
-        Largest change of the input per second.
-    start, target : float
-        Position before and after.
+    move : ProfileMove
+        Command, plant and limits.
     number : {"double", "float"}
 
     Raises
@@ -121,15 +99,16 @@ def make_profile_design(
 
     Examples
     --------
+    >>> from swayless.design.optimal import Command, LinearPlant
     >>> mass = LinearPlant([[0.0, 1.0], [0.0, 0.0]], [0.0, 1.0], [1.0, 0.0])
     >>> command = Command(0.5, [1.0, 1.0, -1.0, -1.0], 0.0)
     >>> made = make_profile_design(
-    ...     "mass", "mass.toml", mass, Robustness(), command, (-1.5, 1.5), None, 0.0, 1.0
+    ...     "mass", "mass.toml", ProfileMove(mass, command, (-1.5, 1.5), start=0.0, target=1.0)
     ... )
     >>> made.settings.stop.ticks, made.guarantee.final_error_ratio, made.table_bytes
     (2, 1e-12, (32, 20))
     """
-    move = ProfileMove(plant, command, limits, start, target, rate_limit_per_s, robustness).as_stored()
-    settings, proof = settings_for(NumberedMove(move, number_type(number)))
+    stored = move.as_stored()
+    settings, proof = settings_for(NumberedMove(stored, number_type(number)))
     guarantee = ProfileGuarantee(promised(proof.final_error_ratio), promised(proof.stop_error_ratio))
-    return ProfileDesign(name, source, f"swayless {swayless.__version__}", move, settings, guarantee)
+    return ProfileDesign(name, source, f"swayless {swayless.__version__}", stored, settings, guarantee)
