@@ -10,8 +10,12 @@ from typing import TYPE_CHECKING
 from swayless.cli.block_build import Block, Proving
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from swayless.cli.verify import CodeFiles
     from swayless.codegen.adaptive_model import AdaptiveModel
+    from swayless.controller.adaptive import AdaptiveSettings
+    from swayless.machine.adaptive_file import AdaptiveMachine
     from swayless.verify import Verdict
 
 
@@ -37,7 +41,39 @@ def adaptive_block(path: Path, show: Callable[[str], None]) -> Block:
         stored=(f"{machine.name}.adaptive.json", adaptive_text(machine)),
         generate=partial(generate_adaptive, model),
         prove=partial(_verdicts, model),
+        figures={"figures/learning.svg": partial(_figure, machine)},
+        facts=_times(machine.settings),
+        lines=tuple(_lines(machine.settings)),
     )
+
+
+def _figure(machine: AdaptiveMachine) -> Figure:
+    from swayless.cli.adaptive_learning import simulated_learning
+    from swayless.report.adaptive import learning_figure
+
+    return learning_figure(simulated_learning(machine))
+
+
+def _times(settings: AdaptiveSettings) -> dict[str, float]:
+    """Give what rests must last for."""
+    tick_s = settings.tick_s
+    return {
+        "tick_s": tick_s,
+        "delay_s": settings.delay_ticks * tick_s,
+        "quiet_s": settings.quiet_ticks * tick_s,
+        "window_s": settings.window_ticks * tick_s,
+    }
+
+
+def _lines(settings: AdaptiveSettings) -> Iterator[str]:
+    """Say what rests must last for, and what was not checked."""
+    times = _times(settings)
+    yield (
+        f"learns from {times['quiet_s']:.4g} s after the command has come to rest, "
+        f"by windows of {times['window_s']:.4g} s"
+    )
+    if settings.mode is None:
+        yield "frequency: not given, so that neither the delay nor max_reference is checked against it"
 
 
 def _verdicts(model: AdaptiveModel, code: CodeFiles, how: Proving) -> Iterator[Verdict]:

@@ -1,10 +1,15 @@
 """`build` and `verify` of the example with an adaptive shaper."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from swayless.cli.adaptive_learning import MOVES, simulated_learning
+from swayless.machine.adaptive_file import load_adaptive
+from swayless.plant import Mode
 from swayless.verify import adaptive
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "adaptive-robot.toml"
@@ -13,6 +18,7 @@ FILES = [
     "c/adaptive_robot_adaptive.c",
     "c/adaptive_robot_adaptive.h",
     "c/adaptive_robot_example.c",
+    "figures/learning.svg",
     "st/FB_adaptive_robot_Adaptive.st",
 ]
 
@@ -20,7 +26,7 @@ FILES = [
 @pytest.fixture(autouse=True)
 def few_moves(monkeypatch):
     """Bit equality is proven elsewhere; here a few moves show that the proof runs at all."""
-    monkeypatch.setattr(adaptive, "MOVES", 4)
+    monkeypatch.setattr(adaptive, "MOVES", 2)
 
 
 def test_the_example_builds_is_proved_and_can_be_verified_and_checked_again(run, tmp_path):
@@ -40,8 +46,33 @@ def test_the_example_builds_is_proved_and_can_be_verified_and_checked_again(run,
     assert run("build", str(EXAMPLE), "-o", str(out), "--check").code == 1
 
 
-def test_without_the_proof_it_says_so(run, tmp_path):
+def test_without_the_proof_it_says_so_and_what_rests_must_last_for(run, tmp_path):
     built = run("build", str(EXAMPLE), "-o", str(tmp_path / "out"), "--no-verify")
     assert built.code == 0
+    assert "learns from 0.101 s after the command has come to rest, by windows of 0.2 s" in built.out
+    assert "frequency: not given" in built.out
     assert "verified: not run (--no-verify)" in built.out
-    assert "5 files written" in built.out
+    assert "6 files written" in built.out
+
+
+@pytest.mark.parametrize(
+    ("changes", "title"),
+    [
+        ({}, "adaptive_robot: learning a vibration of 16 Hz (0.4 periods in a delay)"),
+        ({"mode": Mode(14.0, 0.02)}, "adaptive_robot: learning the file's vibration of 14 Hz"),
+        ({"delay_ticks": 25_000, "lag_ticks": 1_000_000}, "adaptive_robot: learning a vibration of 0.016 Hz"),
+    ],
+)
+def test_the_figure_shows_how_the_file_s_vibration_is_learned(changes, title):
+    machine = load_adaptive(EXAMPLE)
+    learning = simulated_learning(replace(machine, settings=replace(machine.settings, **changes)))
+    assert learning.title.startswith(title)
+    # 5 % of noise over windows of 200 samples or more.
+    assert learning.coefficients[-1] == pytest.approx(learning.wanted, abs=2e-3)
+    assert np.abs(learning.vibration_ratio[: learning.time_s.size // MOVES]).max() > 0.8
+    assert np.abs(learning.vibration_ratio[-200:]).max() < 0.05
+
+
+def test_init_writes_the_example(run, tmp_path):
+    assert run("init", "robot.toml", "--example", "adaptive-robot").code == 0
+    assert (tmp_path / "robot.toml").read_text() == EXAMPLE.read_text()
