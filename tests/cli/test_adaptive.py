@@ -1,6 +1,7 @@
 """`build` and `verify` of the example with an adaptive shaper."""
 
 import json
+import shlex
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from swayless.machine.adaptive_file import load_adaptive
 from swayless.plant import Mode
 from swayless.verify import adaptive
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "adaptive-robot.toml"
+ROOT = Path(__file__).parents[2]
+EXAMPLE, PAGE = ROOT / "examples" / "adaptive-robot.toml", ROOT / "docs" / "adaptive.md"
 FILES = [
     "adaptive_robot.adaptive.json",
     "c/adaptive_robot_adaptive.c",
@@ -29,10 +31,20 @@ def few_moves(monkeypatch):
     monkeypatch.setattr(adaptive, "MOVES", 2)
 
 
+def test_every_command_line_of_the_page_works(run, tmp_path):
+    lines = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("swayless ")]
+    for line in lines:
+        assert run(*shlex.split(line)[1:]).code == 0, line
+    assert len(lines) == 2
+    assert (tmp_path / "adaptive-robot.toml").read_text() == EXAMPLE.read_text()
+    assert (tmp_path / "adaptive-robot" / "figures" / "learning.svg").exists()
+
+
 def test_the_example_builds_is_proved_and_can_be_verified_and_checked_again(run, tmp_path):
     out = tmp_path / "out"
     built = run("build", str(EXAMPLE), "-o", str(out), "--json")
     document = json.loads(built.out)
+    assert (document["quiet_s"], document["window_s"]) == (0.101, 0.2)
     assert (built.code, document["verified"]) == (0, "equal")
     assert sorted(document["files"]) == FILES
     assert {part["code"].split()[0] for part in document["runs"]} == {"C", "ST"}
@@ -71,8 +83,3 @@ def test_the_figure_shows_how_the_file_s_vibration_is_learned(changes, title):
     assert learning.coefficients[-1] == pytest.approx(learning.wanted, abs=2e-3)
     assert np.abs(learning.vibration_ratio[: learning.time_s.size // MOVES]).max() > 0.8
     assert np.abs(learning.vibration_ratio[-200:]).max() < 0.05
-
-
-def test_init_writes_the_example(run, tmp_path):
-    assert run("init", "robot.toml", "--example", "adaptive-robot").code == 0
-    assert (tmp_path / "robot.toml").read_text() == EXAMPLE.read_text()
