@@ -9,32 +9,34 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
-from fractions import Fraction
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from pathlib import Path
 from typing import Any
 
 from swayless.design.robust.demand import LARGEST_DAMPING_RATIO
 from swayless.errors import FileError
-from swayless.machine.identified_text import replaced
+from swayless.machine.identified_ranges import (
+    LAST_DIGIT,
+    Exchange,
+    exchanged_frequencies,
+    exchanged_ropes,
+    range_ends,
+    shown_value,
+    toml_value,
+)
+from swayless.machine.identified_text import replaced, written
 from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.names import name_problem
 from swayless.machine.plant_section import PlantKind
-from swayless.machine.quantity import UNITS, Dimension, QuantityError, parse_quantity, unit_of
 from swayless.machine.source import read_source
 from swayless.machine.writing import write_text_atomically
-from swayless.plant import Band, pendulum_rope_length_m
-
-_DIGITS = 6
-_LAST_DIGIT = 10.0 ** (1 - _DIGITS)
-"""The largest that a last digit can be, relative to the number."""
+from swayless.plant import Band
 
 _TICKS_PER_PERIOD = 50
 
-_ONE_ROPE = 0.1
-"""A range of ropes that is narrower, relatively, is one rope and its uncertainty."""
+_KINDS: tuple[PlantKind, ...] = ("crane", "arm")
 
 
 @dataclass(frozen=True)
@@ -104,100 +106,59 @@ def updated_machine_text(path: Path, text: str, plant: IdentifiedPlant) -> tuple
     Raises
     ------
     FileError
-        If the text is no machine file with one frequency range or rope range in a section of its own, or if
-        it has a range of ropes and nobody knows which of them was measured.
+        If the text is no machine file with one frequency range or rope range in a section of its own; if it
+        has a range of ropes and nobody knows which of them was measured, or one that was corrected already;
+        if it has a range of frequencies and what was identified lies outside of it.
     """
     try:
         document = tomllib.loads(text)
     except ValueError as error:
         raise FileError([f"{path}: not valid TOML: {error}"]) from error
-    section = next((kind for kind in ("crane", "arm") if isinstance(document.get(kind), dict)), None)
-    if section is None:
-        raise FileError([f"{path}: has neither [crane] nor [arm], where the frequency stands"])
+    section, key = _place(path, document)
     old: dict[str, Any] = document[section]
-    several = [key for key in ("sling_length", "position") if key in old]
-    key = "rope_length" if "rope_length" in old else "frequency"
-    if several or key not in old:
-        reason = f"{several[0]} makes several modes of it" if several else f"there is no {key}"
-        raise FileError([f"{path}: [{section}]: {reason}: write what was identified by hand"])
-    place = f"{path}: [{section}]: {key} = {_shown(old[key])}"
-    length = _lengths(place, old[key], plant) if key == "rope_length" else None
-    values = {key: _range_text(key, old[key], plant.bands[0]) if length is None else length}
+    place = f"{path}: [{section}]: {key} = {shown_value(old[key])}"
+    plain = text.replace("\r\n", "\n")
+    value, comment = written(plain, section, key)
+    exchange = (
+        exchanged_frequencies(place, old[key], plant.bands[0])
+        if key == "frequency"
+        else exchanged_ropes(place, old[key], plant.bands[0], plant.rope_offset_m, comment)
+    )
+    values: dict[str, str | tuple[str, ...]] = {key: exchange.ends or value}
     if plant.damping_ratio is not None:
         values["damping_ratio"] = f"{plant.damping_ratio:.4g}"
-    new = replaced(text.replace("\r\n", "\n"), section, values)
-    expected = old | {name: tomllib.loads(f"x = {value}")["x"] for name, value in values.items()}
+    new = replaced(plain, section, values, {} if exchange.note is None else {key: exchange.note})
+    expected = old | {name: tomllib.loads(f"x = {toml_value(to)}")["x"] for name, to in values.items() if to}
     if tomllib.loads(new) != document | {section: expected}:
         raise FileError(
             [f"{path}: [{section}]: is not written as a section with its keys below: write it by hand"]
         )
-    why = {key: _reason(plant) if length is not None else "two standard deviations to either side"}
-    said = ", ".join(
-        f"{name} = {value} (was {'; '.join([_shown(old.get(name)), *([why[name]] if name in why else [])])})"
-        for name, value in values.items()
-    )
-    return new.replace("\n", "\r\n") if "\r\n" in text else new, f"[{section}] {said}"
+    said = f"[{section}] {_said(old, key, values, exchange)}"
+    return new.replace("\n", "\r\n") if "\r\n" in text else new, said
 
 
-def _reason(plant: IdentifiedPlant) -> str:
-    low_m, high_m = plant.rope_offset_m or (0.0, 0.0)
-    return f"the pendulum is {low_m:+.4g} to {high_m:+.4g} m longer than shown"
+def _place(path: Path, document: dict[str, Any]) -> tuple[PlantKind, str]:
+    """Find the section of the plant, and the key of its range."""
+    section = next((kind for kind in _KINDS if isinstance(document.get(kind), dict)), None)
+    if section is None:
+        raise FileError([f"{path}: has neither [crane] nor [arm], where the frequency stands"])
+    several = [key for key in ("sling_length", "position") if key in document[section]]
+    key = "rope_length" if "rope_length" in document[section] else "frequency"
+    if several or key not in document[section]:
+        reason = f"{several[0]} makes several modes of it" if several else f"there is no {key}"
+        raise FileError([f"{path}: [{section}]: {reason}: write what was identified by hand"])
+    return section, key
 
 
-def _lengths(place: str, old: object, plant: IdentifiedPlant) -> str | None:
-    """Correct the ropes of a file by the offset; None for a single one, measured without its length."""
-    ends = old if isinstance(old, list) else [old]
-    try:
-        lengths_m = [parse_quantity(end, "length") for end in ends]
-    except QuantityError as error:
-        raise FileError([f"{place}: {error}"]) from error
-    if plant.rope_offset_m is None:
-        if max(lengths_m) - min(lengths_m) > _ONE_ROPE * max(lengths_m):
-            raise FileError(
-                [
-                    f"{place}: is a range of ropes, and the swing tells of one: give --rope-length, what the"
-                    " crane showed, and the range is kept and corrected by the difference"
-                ]
-            )
-        return None
-    low_m, high_m = min(lengths_m) + plant.rope_offset_m[0], max(lengths_m) + plant.rope_offset_m[1]
-    if low_m <= 0.0:
-        raise FileError([f"{place}: corrected, its shortest would be {low_m:.4g} m: must be > 0"])
-    return _ends_text("length", old, low_m, high_m)
-
-
-def _shown(value: object) -> str:
-    """Write a value as its file does, or that it was not there."""
-    if value is None:
-        return "not given"
-    if isinstance(value, list):
-        return f"[{', '.join(_shown(item) for item in value)}]"
-    return f'"{value}"' if isinstance(value, str) else f"{value}"
-
-
-def _range_text(key: str, old: object, band: Band) -> str:
-    """Write a band as rope lengths or frequencies, in the unit of the file, rounded outward."""
-    dimension: Dimension = "length" if key == "rope_length" else "frequency"
-    low, high = band.low_hz, band.high_hz
-    if dimension == "length":
-        low, high = pendulum_rope_length_m(high), pendulum_rope_length_m(low)
-    return _ends_text(dimension, old, low, high)
-
-
-def _ends_text(dimension: Dimension, old: object, low: float, high: float) -> str:
-    """Write a range in the unit of the file, rounded outward."""
-    unit = unit_of(old, dimension)
-    first = old[0] if isinstance(old, list) and old else old
-    ends = (_rounded(low, dimension, unit, ROUND_FLOOR), _rounded(high, dimension, unit, ROUND_CEILING))
-    texts = [f'"{end} {unit}"' for end in ends] if isinstance(first, str) else [str(end) for end in ends]
-    return f"[{', '.join(texts)}]"
-
-
-def _rounded(value: float, dimension: Dimension, unit: str, rounding: str) -> str:
-    size = UNITS[dimension][unit]
-    exact = Fraction(value) / size
-    context = Context(prec=_DIGITS, rounding=rounding)
-    return f"{context.divide(Decimal(exact.numerator), Decimal(exact.denominator)).normalize():f}"
+def _said(
+    old: dict[str, Any], key: str, values: Mapping[str, str | tuple[str, ...]], exchange: Exchange
+) -> str:
+    """Say what was exchanged, why, and what stood there."""
+    said = []
+    for name, value in values.items():
+        was = f"was {shown_value(old.get(name))}" if name != key or exchange.ends else "kept"
+        said.append(f"{name} = {toml_value(value)} ({was}{f'; {exchange.why}' if name == key else ''})")
+    return ", ".join(said)
 
 
 def new_machine_text(name: str, plant: IdentifiedPlant) -> str:
@@ -217,8 +178,8 @@ def new_machine_text(name: str, plant: IdentifiedPlant) -> str:
     """
     symbol = name.lower().replace("-", "_")
     symbol = "machine" if name_problem(symbol) else symbol
-    ranges = [_range_text("frequency", 0.0, band) for band in plant.bands]
-    rows = [_range_text("frequency", 0.0, _wider(band)) for band in plant.bands]
+    ranges = [_frequency_text(band) for band in plant.bands]
+    rows = [_frequency_text(_wider(band)) for band in plant.bands]
     held = f"frequency = {rows[0]}" if len(rows) == 1 else f"bands = [{', '.join(rows)}]"
     damping = [min(LARGEST_DAMPING_RATIO, ratio) for ratio in plant.damping_range]
     return "\n".join(
@@ -247,9 +208,13 @@ def new_machine_text(name: str, plant: IdentifiedPlant) -> str:
     )
 
 
+def _frequency_text(band: Band) -> str:
+    return toml_value(range_ends("frequency", 0.0, band.low_hz, band.high_hz))
+
+
 def _wider(band: Band) -> Band:
     """Widen a band by a last digit or more, so that no rounding of a design leaves the plant's edge out."""
-    return Band(band.low_hz * (1.0 - _LAST_DIGIT), band.high_hz * (1.0 + _LAST_DIGIT))
+    return Band(band.low_hz * (1.0 - LAST_DIGIT), band.high_hz * (1.0 + LAST_DIGIT))
 
 
 def _damping_text(ratios: Sequence[float]) -> str:

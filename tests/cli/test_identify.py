@@ -103,7 +103,8 @@ def test_two_modes_that_cannot_be_told_apart_are_refused(run, tmp_path):
 @pytest.mark.parametrize("example", ["workshop-crane", "flexible-arm"])
 def test_a_machine_file_gets_the_band_and_keeps_its_comments(run, record, tmp_path, example):
     machine = tmp_path / "machine.toml"
-    machine.write_text(example_text(example).replace("rope_length = [2.0, 10.0]", "rope_length = 6"))
+    single = example_text(example).replace("rope_length = [2.0, 10.0]", "rope_length = 6")
+    machine.write_text(single.replace("frequency = [4.0, 5.0]", "frequency = [4.4, 4.6]"))
     document = found(run("identify", record, "--linear", "--into", machine, "--json"))
     low, high = load_machine(machine).plant.frequency_hz
     assert (low, high) == (

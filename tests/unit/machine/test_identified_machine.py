@@ -31,7 +31,8 @@ def test_every_example_keeps_all_but_the_plant_and_says_what_was_exchanged(tmp_p
             write_identified(path, PLANT)
         assert path.read_text() == example_text(name)
         return
-    said = write_identified(path, ON_A_ROPE)
+    arm = replace(PLANT, bands=(Band(3.9, 4.1),))
+    said = write_identified(path, arm if name == "flexible-arm" else ON_A_ROPE)
     before, after = example_text(name).splitlines(), path.read_text().splitlines()
     changed = [line for line in after if line not in before]
     assert len(changed) == 2
@@ -69,6 +70,49 @@ def test_a_range_of_ropes_is_kept_and_corrected_by_the_offset(tmp_path):
     assert ' ft"' in path.read_text().partition("rope_length = ")[2].splitlines()[0]
     corrected = Band(pendulum_frequency_hz(31.0 * 0.3048), pendulum_frequency_hz(10.0 * 0.3048))
     assert holds(load_machine(path).plant.frequency_hz, corrected)
+
+
+def test_ropes_are_corrected_once(tmp_path):
+    path = tmp_path / "crane.toml"
+    path.write_text(example_text("workshop-crane"))
+    write_identified(path, ON_A_ROPE)
+    assert "  # pendulum lengths by swayless identify; shown: [2.0, 10.0]  " in path.read_text()
+    once = path.read_text()
+    with pytest.raises(
+        FileError, match=r"= \[2\.25, 10\.5\]: are pendulum lengths already, says their comment"
+    ):
+        write_identified(path, ON_A_ROPE)
+    assert path.read_text() == once
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        (
+            "[0.17, 0.3]",
+            "[0.17, 0.3]",
+            "frequency = [0.17, 0.3] (kept; a range, and it holds 0.19812 to 0.20188 Hz)",
+        ),
+        ("[0.2, 0.3]", "[0.198123, 0.3]", "(was [0.2, 0.3]; a range, widened to hold 0.19812 to 0.20188 Hz)"),
+        ('["200 mHz", 0.21]', '["198.123 mHz", "201.877 mHz"]', "; two standard deviations to either side)"),
+        ("0.2", "[0.198123, 0.201877]", "(was 0.2; two standard deviations to either side)"),
+    ],
+)
+def test_a_range_of_frequencies_is_kept_or_widened_and_a_single_one_exchanged(tmp_path, old, new, why):
+    path = tmp_path / "crane.toml"
+    path.write_text(f"[crane]\nfrequency = {old}  # Hz\n")
+    assert why in write_identified(path, PLANT)
+    assert path.read_text() == f"[crane]\nfrequency = {new}  # Hz\ndamping_ratio = 0.004123\n"
+
+
+def test_what_lies_outside_of_a_range_of_frequencies_is_refused(tmp_path):
+    path = tmp_path / "arm.toml"
+    path.write_text(example_text("flexible-arm"))
+    with pytest.raises(
+        FileError, match=r"0\.19812 to 0\.20188 Hz, lies outside of it: write the range by hand"
+    ):
+        write_identified(path, PLANT)
+    assert path.read_text() == example_text("flexible-arm")
 
 
 @pytest.mark.parametrize(
@@ -151,7 +195,7 @@ frequency = 1
 """
 frequency = [   # of many lines
     0.1,        # ] not the end
-    "0.2 Hz",
+    "0.2, Hz",
 ]   # after
 [axis.crane]
 frequency = 7
@@ -160,9 +204,18 @@ frequency = 7
 
 def test_only_the_value_is_exchanged_whatever_stands_around_it():
     new = replaced(TRICKY, "crane", {"frequency": "[1, 2]", "damping_ratio": "0.1"})
-    old = '[   # of many lines\n    0.1,        # ] not the end\n    "0.2 Hz",\n]'
+    old = '[   # of many lines\n    0.1,        # ] not the end\n    "0.2, Hz",\n]'
     assert new == TRICKY.replace(old, "[1, 2]").replace("# after\n", "# after\ndamping_ratio = 0.1\n")
     assert [entry.key for entry in entries(TRICKY, "crane")] == ["max_speed", "frequency"]
+
+
+def test_items_of_an_array_take_the_places_of_those_before_and_comments_stay():
+    new = replaced(TRICKY, "crane", {"frequency": ("3", "4")}, {"frequency": "new"})
+    assert new == TRICKY.replace("0.1,", "3,").replace('"0.2, Hz"', "4").replace(
+        "]   # after", "]  # new   # after"
+    )
+    one = "[crane]\nfrequency = [ # Hz\n  3\n]\n"
+    assert replaced(one, "crane", {"frequency": ("3", "4")}) == one.replace("3", "3, 4")
 
 
 def test_line_ends_and_a_missing_last_one_stay(tmp_path):
