@@ -6,11 +6,9 @@ import math
 
 import numpy as np
 
-from swayless.design.optimal.linear_plant import ComplexArray, LinearPlant, mode_vectors, shown
+from swayless.design.optimal.linear_plant import ComplexArray, LinearPlant, check_apart, mode_vectors
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
-
-_APART = 1e-6  # of the fastest: nearer ringing poles cannot be moved each on its own
 
 
 def detuned(plant: LinearPlant, frequency_ratio: float) -> LinearPlant:
@@ -44,6 +42,7 @@ def detuned(plant: LinearPlant, frequency_ratio: float) -> LinearPlant:
     """
     if not (math.isfinite(frequency_ratio) and frequency_ratio > 0.0):
         raise DesignError(f"frequency_ratio = {frequency_ratio!r}: must be finite and > 0")
+    check_apart(plant)
     plant = plant.balanced
     above = plant.ringing_poles_rad_s
     poles = np.concatenate([above, above.conj()])
@@ -58,10 +57,7 @@ def _gains(plant: LinearPlant, poles: ComplexArray, frequency_ratio: float) -> F
     """Give the feedback that moves some poles and no others, shape (n,), as a sum of left eigenvectors."""
     if poles.size == 0:
         return np.zeros(plant.order)
-    between = poles[:, np.newaxis] - poles + np.diag(np.full(poles.size, np.inf))
-    if np.abs(between).min() < _APART * np.abs(poles).max():
-        near = shown(complex(poles[np.abs(between).argmin() // poles.size]))
-        raise DesignError(f"plant: two ringing poles near {near} rad/s cannot be told apart")
+    between = poles[:, np.newaxis] - poles
     np.fill_diagonal(between, 1.0)
     shares = (poles[:, np.newaxis] - frequency_ratio * poles).prod(axis=1) / between.prod(axis=1)
     befores = np.array([mode_vectors(plant, complex(pole))[1] for pole in poles])

@@ -116,6 +116,8 @@ def _least_energy(program: Program) -> OptimalCommand:
 
 def _out_of_reach(program: Program, share: float) -> str:
     """Say by how much limits are passed, and what may be the cause."""
+    if share == np.inf:
+        return f"ticks = {program.ticks}: so few cannot bring the plant to rest, whatever the limits"
     text = (
         f"{program.ticks} ticks of {program.task.tick_s:g} s: any command takes {share:.6g} times the limits"
     )

@@ -18,6 +18,9 @@ LARGEST_ORDER = 20
 """Most states of a plant: beyond it, poles from coefficients in double are noise."""
 
 _ON_AXIS = 1e-6  # of the fastest pole: what a double pole at 0 is moved by rounding, and more
+_FASTEST_RAD_S = 1e12  # of coefficients: beyond it their powers leave the range of double
+_LARGEST = 1e100  # canonical forms of 20 states and 1e5 rad/s
+_APART = 1e-4  # of their size: nearer ringing poles cannot be told apart
 _RINGS = 0.1  # sine of a pole's angle above which it rings: below a damping ratio of 0.995
 _LOST = 1e-9  # of the largest singular value: below it a direction is not there
 _BLOCKED = 1e-12  # of the outputs of a state of size 1: below it an output at rest is rounding
@@ -77,7 +80,8 @@ class LinearPlant:
         Raises
         ------
         DesignError
-            If they are no transfer function of a plant with memory.
+            If they are no transfer function of a plant with memory, or have a root in common: they do not say
+            whether the input moves it, and the output does not show it.
 
         Examples
         --------
@@ -94,6 +98,7 @@ class LinearPlant:
                 f"transfer function {list(numerator)!r} / {list(denominator)!r}: must have a numerator"
                 " that is not 0 and of no higher power of s than the denominator, and that one s at least"
             )
+        _check_speed(bottom)
         # In units of the poles' own speed, so that coefficients, and states, are of order 1; a power of two,
         # so that nothing is rounded.
         speed_rad_s = _speed_rad_s(np.roots(bottom))
@@ -103,9 +108,16 @@ class LinearPlant:
         order = monic.size - 1
         a = np.eye(order, k=-1)
         a[0] = -monic[1:]
-        return cls(
-            a * speed_rad_s, np.eye(order)[0] * speed_rad_s, padded[1:] - padded[0] * monic[1:], padded[0]
-        )
+        b, c = np.eye(order)[0], padded[1:] - padded[0] * monic[1:]
+        plant = cls(a * speed_rad_s, b * speed_rad_s, c, padded[0])
+        shared = plant.poles_rad_s[uncontrolled(plant.balanced.a.T, plant.balanced.c, plant.poles_rad_s)]
+        if shared.size:
+            raise DesignError(
+                "transfer function: numerator and denominator both have the root"
+                f" {shown(shared[0])} rad/s: it is not controllable or not observable; cancel it, or give the"
+                " plant as a state space"
+            )
+        return plant
 
     @property
     def order(self) -> int:
@@ -157,6 +169,15 @@ class LinearPlant:
         poles = self.poles_rad_s
         rings = (poles.imag > _RINGS * np.abs(poles)) & (np.abs(poles) > _ON_AXIS * np.abs(poles).max())
         return np.sort_complex(poles[rings])
+
+    @property
+    def merged_pole_rad_s(self) -> complex | None:
+        """A ringing pole that cannot be told apart from another one; None where there is none."""
+        poles = self.ringing_poles_rad_s
+        apart = np.abs(poles[:, np.newaxis] - poles) + np.diag(np.full(poles.size, np.inf))
+        if poles.size < 2 or apart.min() >= _APART * np.abs(poles).max():
+            return None
+        return complex(poles[apart.argmin() // poles.size])
 
     @property
     def zeros_rad_s(self) -> ComplexArray:
@@ -218,11 +239,24 @@ def mode_vectors(plant: LinearPlant, pole: complex) -> tuple[ComplexArray, Compl
 
     Each from its own side: beside a double integrator the vectors of all poles are no basis.
     """
-    (after, before) = (
+    after, before = (
         vectors[:, np.abs(poles - pole).argmin()]
         for poles, vectors in (np.linalg.eig(plant.a), np.linalg.eig(plant.a.T))
     )
     return after, before / (before @ after)
+
+
+def check_apart(plant: LinearPlant) -> None:
+    """Refuse a plant two of whose ringing poles cannot be told apart, where each is looked at on its own.
+
+    Raises
+    ------
+    DesignError
+        Naming the pole.
+    """
+    merged = plant.merged_pole_rad_s
+    if merged is not None:
+        raise DesignError(f"plant: two ringing poles near {shown(merged)} rad/s cannot be told apart")
 
 
 def uncontrolled(a: FloatArray, b: FloatArray, poles: ComplexArray) -> NDArray[np.bool_]:
@@ -242,6 +276,18 @@ def _speed_rad_s(poles: ArrayLike) -> float:
     return float(2.0 ** np.round(np.log2(moving).mean())) if moving.size else 1.0
 
 
+def _check_speed(denominator: FloatArray) -> None:
+    """Refuse coefficients whose roots are faster than numbers reach."""
+    powers = np.arange(1, denominator.size)
+    with np.errstate(over="ignore"):
+        speeds = np.abs(denominator[1:] / denominator[0]) ** (1.0 / powers)
+    if not speeds.max() <= _FASTEST_RAD_S:
+        raise DesignError(
+            f"denominator {denominator.tolist()!r}: its roots must be up to {_FASTEST_RAD_S:g} rad/s: choose"
+            " another unit of time"
+        )
+
+
 def shown(pole: complex) -> str:
     """Print a pole.
 
@@ -254,9 +300,9 @@ def shown(pole: complex) -> str:
 
 
 def _finite(name: str, value: ArrayLike) -> FloatArray:
-    """Give an array that nobody can change, of finite numbers."""
+    """Give an array that nobody can change, of numbers that can be multiplied."""
     array = np.array(value, dtype=np.float64)
-    if not np.isfinite(array).all():
-        raise DesignError(f"plant: {name} = {array.tolist()!r}: must be finite")
+    if not (np.abs(array) <= _LARGEST).all():
+        raise DesignError(f"plant: {name} = {array.tolist()!r}: must be finite, up to {_LARGEST:g}")
     array.flags.writeable = False
     return array

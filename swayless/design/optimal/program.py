@@ -228,13 +228,13 @@ def least_utilisation(program: Program) -> LeastUtilisation:
         return impossible
     (equal, values), (form, centres, halves) = program.equalities, program.limited
     ends, limits, count = values.size, halves.size, equal.shape[1]
-    # In units of the limits, and s in units that make the conditions' values 1: the solver's tolerances are
+    # In units of the limits, and s in units that make its column 1 at most: the solver's tolerances are
     # absolute. Equalities first, then K v - t - s f = 0 with bounds on t: its duals price the limits.
-    unit = program.half / max(program.half, float(np.abs(values).max()))
-    column = np.concatenate([-values / program.half, -centres / halves])[:, np.newaxis] * unit
+    column = np.concatenate([-values / program.half, -centres / halves])[:, np.newaxis]
+    unit = 1.0 / max(1.0, float(np.abs(column).max()))
     both: Any = [equal, sparse.diags_array(program.half / halves) @ form]
     apart: Any = [sparse.csr_array((ends, limits)), -sparse.eye_array(limits)]
-    columns: Any = [sparse.vstack(both), sparse.vstack(apart), column]
+    columns: Any = [sparse.vstack(both), sparse.vstack(apart), column * unit]
     table: Any = sparse.hstack(columns, format="csr")
     half = np.ones(count + limits)
     half[program.ticks : count] = np.inf

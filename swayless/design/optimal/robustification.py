@@ -14,7 +14,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swayless.design.optimal.linear_plant import LinearPlant, mode_vectors, shown, uncontrolled
+from swayless.design.optimal.linear_plant import (
+    LinearPlant,
+    check_apart,
+    mode_vectors,
+    shown,
+    uncontrolled,
+)
 from swayless.design.optimal.sampling import Sampled, sampled
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
@@ -23,8 +29,6 @@ LARGEST_ROBUST_ORDER = 6
 """Most repetitions of a pole: each costs time, and its conditions differ less and less from the others'."""
 
 LARGEST_SPLIT_RATIO = 0.5
-
-_APART = 1e-4  # of their size: nearer ringing poles cannot be repeated each on its own
 
 
 @dataclass(frozen=True)
@@ -183,12 +187,7 @@ def _chains(plant: LinearPlant, robustness: Robustness) -> list[tuple[complex, c
     poles = plant.ringing_poles_rad_s
     if poles.size == 0:
         raise DesignError("robust or extra insensitive: nothing rings in this plant, leave it out")
-    distances = np.abs(poles[:, np.newaxis] - poles) + np.diag(np.full(poles.size, np.inf))
-    if distances.min() < _APART * np.abs(poles).max():
-        near = shown(poles[distances.argmin() // poles.size])
-        raise DesignError(
-            f"robust or extra insensitive: two ringing poles near {near} rad/s cannot be told apart"
-        )
+    check_apart(plant)
     split = robustness.split_ratio
     if split is None:
         return [(complex(pole), complex(pole), robustness.order + 1) for pole in poles]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swayless.design.optimal.command import Command
-from swayless.design.optimal.linear_plant import ComplexArray, LinearPlant, mode_vectors
+from swayless.design.optimal.linear_plant import ComplexArray, LinearPlant, check_apart, mode_vectors
 from swayless.design.residual import residual_vibration
 from swayless.design.shaper import FloatArray
 from swayless.plant import Mode
@@ -67,12 +67,18 @@ def swing_left(plant: LinearPlant, command: Command, frequency_ratio: ArrayLike)
     ndarray, shape (modes, n)
         In units of the output; modes in the order of `LinearPlant.ringing_poles_rad_s`.
 
+    Raises
+    ------
+    DesignError
+        If two of them cannot be told apart.
+
     Examples
     --------
     >>> plant = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0])
     >>> swing_left(plant, Command(np.pi / 10.0, [0.5], 1.0), [1.0, 1.2]).round(4)
     array([[0.   , 0.309]])
     """
+    check_apart(plant)
     plant, increments = plant.balanced, command.increments
     ratios = np.asarray(frequency_ratio, dtype=np.float64)
     since_s = command.duration_s - increments.times_s

@@ -14,6 +14,7 @@ from swayless.design.optimal import (
     LinearPlant,
     MoveTask,
     Robustness,
+    detuned,
     least_energy,
     output_at_ticks,
     output_with_feedback,
@@ -74,7 +75,7 @@ CASES = {
     ),
     "fewer ticks than conditions": (
         lambda: least_energy(task(), 1),
-        "any command takes inf times the limits",
+        "ticks = 1: so few cannot bring the plant to rest, whatever the limits",
     ),
     "no ticks": (lambda: least_energy(task(), 0), "ticks = 0: must be a whole number from 1"),
     "trajectory elsewhere": (lambda: track(task(), [0.1, 0.5], 0.1), "ends at 0.5, the target is 1"),
@@ -101,6 +102,21 @@ CASES = {
         ),
         "unstable, grows",
     ),
+    "a root in common": (
+        lambda: made([1.0, 1.0], [1.0, 3.0, 2.0]),
+        "both have the root -1 rad/s: it is not controllable or not observable",
+    ),
+    "a mode in common": (lambda: made([1.0, 0.0, 4.0], [1.0, 1.0, 4.0, 4.0]), "both have the root"),
+    "poles beyond numbers": (lambda: made([1.0], [1e-300, 0.0, 1.0]), "must be up to 1e+12 rad/s"),
+    "states beyond numbers": (
+        lambda: LinearPlant([[-1e200]], [1.0], [1.0]),
+        "a = [[-1e+200]]: must be finite, up to",
+    ),
+    "two modes in one, off": (
+        lambda: detuned(made([1.0], [1.0, 0.0, 2.0, 0.0, 1.0]), 1.1),
+        "cannot be told apart",
+    ),
+    "a plant off by nothing": (lambda: detuned(OSCILLATOR, 0.0), "frequency_ratio = 0.0: must be finite"),
     "numerator of higher power": (lambda: made([1.0, 0.0, 0.0], [1.0, 1.0]), "no higher power of s"),
     "no denominator": (lambda: made([1.0], [2.0]), "no higher power of s"),
     "coefficient without end": (lambda: made([math.nan], [1.0, 1.0]), "must be finite"),
