@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -13,24 +14,36 @@ from swayless.cli.block_build import Block
 Make: TypeAlias = "Callable[[Callable[[str], None]], Block]"
 """Makes a block; it is given a callable that shows progress."""
 
-ENDINGS = ("*.adaptive.json",)
+ENDINGS = ("*.adaptive.json", "*.profile.json")
 """How the names of stored files end."""
 
 
-def described_block(path: Path) -> Make | None:
+def described_block(path: Path, directory: Path) -> Make | None:
     """Tell whether a TOML file describes a block of its own, and how to make it.
 
     Parameters
     ----------
     path : Path
         As given to `build`.
+    directory : Path
+        Where an earlier build may have stored the same block.
     """
     from swayless.machine.adaptive_file import is_adaptive
+    from swayless.machine.inversion import asks_for_inversion
+    from swayless.machine.profile_file import is_profile
 
     if is_adaptive(path):
         from swayless.cli.adaptive import adaptive_block
 
         return partial(adaptive_block, path)
+    if asks_for_inversion(_toml(path)):
+        from swayless.cli.profile_block import inverted_block
+
+        return partial(inverted_block, path, directory)
+    if is_profile(path):
+        from swayless.cli.profile_block import optimal_block
+
+        return partial(optimal_block, path, directory)
     return None
 
 
@@ -42,18 +55,38 @@ def stored_block(path: Path) -> Make | None:
     path : Path
         As given to `generate` and `verify`; whatever else is wrong with it is for others to report.
     """
-    from swayless.machine import adaptive_file
+    from swayless.machine import adaptive_file, profile_design_record
 
-    try:
-        document = json.loads(path.read_bytes())
-    except (OSError, ValueError, RecursionError):
-        return None
-    schema = document.get("schema") if isinstance(document, dict) else None
+    schema = _schema(path)
     if schema == adaptive_file.SCHEMA:
         from swayless.cli.adaptive import adaptive_block
 
         return partial(adaptive_block, path)
+    if schema == profile_design_record.SCHEMA:
+        from swayless.cli.profile_block import stored_profile_block
+
+        return partial(stored_profile_block, path)
     return None
+
+
+def _toml(path: Path) -> dict[str, object]:
+    """Parse a file; whatever is wrong with it is for others to report."""
+    from swayless.machine.machine_file import MAX_BYTES
+    from swayless.machine.source import read_source
+
+    try:
+        return tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
+    except (ValueError, RecursionError):
+        return {}
+
+
+def _schema(path: Path) -> object:
+    """Read what a JSON file says it is."""
+    try:
+        document = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return None
+    return document.get("schema") if isinstance(document, dict) else None
 
 
 def stored_in(directory: Path) -> Path | None:

@@ -95,7 +95,7 @@ def build(
     from swayless.machine.machine_file import load_axes
 
     directory = output or Path(machine.stem)
-    if (make := described_block(machine)) is not None:
+    if (make := described_block(machine, directory)) is not None:
         build_block(
             make,
             directory,

@@ -130,12 +130,14 @@ class ProfileCode:
     def constants(self) -> tuple[ProfileConstant, ...]:
         """Constants of the number type."""
         s = self.settings
+        rate = "longest travel that keeps the limit of the rate"
+        travel = rate if s.max_travel < LARGEST_POSITION else "longest travel: no rate is limited"
         held = "reference that holds the plant, per unit of position: 1 / G(0)"
         values = (
             ("HOLD_RATIO", "HoldRatio", s.hold_ratio, held),
             ("LOWEST", "LowestReference", s.limits[0], "limit of the design"),
             ("HIGHEST", "HighestReference", s.limits[1], "limit of the design"),
-            ("MAX_TRAVEL", "MaxTravel", s.max_travel, "longest travel that keeps the limit of the rate"),
+            ("MAX_TRAVEL", "MaxTravel", s.max_travel, travel),
             ("LARGEST_POSITION", "LargestPosition", LARGEST_POSITION, "beyond it sums lose their meaning"),
             ("SHAPE_LOW", "ShapeLow", s.extremes.shape[0], "least of the table and of every stop of it"),
             ("SHAPE_HIGH", "ShapeHigh", s.extremes.shape[1], "largest of the same"),

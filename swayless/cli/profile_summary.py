@@ -1,0 +1,115 @@
+"""What `build` says of a motion profile: to people, in JSON, at the head of the code. Not for: making it."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from swayless.cli.console import counted, per_cent
+
+if TYPE_CHECKING:
+    from swayless.codegen.profile_model import ProfileOrigin
+    from swayless.machine.profile_design import ProfileDesign
+
+
+def profile_origin(design: ProfileDesign, text: str) -> ProfileOrigin:
+    """Say where generated code comes from, and what was proved of it.
+
+    Parameters
+    ----------
+    design : ProfileDesign
+    text : str
+        Its stored file.
+    """
+    from swayless.codegen.profile_model import ProfileOrigin
+
+    move, promise = design.move, design.guarantee
+    robust = f", robust of order {move.robustness.order}" if move.robustness.order else ""
+    facts = (
+        f"Design: {move.start:.6g} to {move.target:.6g}{robust}, {move.command.hold} hold; SHA-256:",
+        hashlib.sha256(text.encode("ascii")).hexdigest(),
+        f"Proved with these numbers: a move leaves at most {promise.final_error_ratio:g} of each state's"
+        " largest,",
+        f"a stop from any tick {promise.stop_error_ratio:g}; both keep the limits.",
+    )
+    return ProfileOrigin(design.name, design.generator, design.source, facts, (move.start, move.target))
+
+
+def profile_facts(design: ProfileDesign, origin: str) -> dict[str, Any]:
+    """Give what is known of a block, for machines.
+
+    Parameters
+    ----------
+    design : ProfileDesign
+    origin : str
+        How it stands to the stored one.
+    """
+    settings, promise = design.settings, design.guarantee
+    return {
+        "design": origin,
+        "number": settings.number.name,
+        "tick_s": settings.tick_s,
+        "ticks": settings.pieces.ticks,
+        "stop_ticks": settings.stop.ticks,
+        "limit": list(settings.limits),
+        "hold_ratio": settings.hold_ratio,
+        "max_travel": settings.max_travel,
+        "guarantee": {
+            "final_error_ratio": promise.final_error_ratio,
+            "stop_error_ratio": promise.stop_error_ratio,
+        },
+        "largest_input_ratio": _largest_input_ratio(design),
+        "table": _table(settings.pieces, design.table_bytes),
+        "stop_table": _table(settings.stop.pieces, design.stop_bytes),
+    }
+
+
+def profile_lines(design: ProfileDesign, origin: str) -> Iterator[str]:
+    """Say what is known of a block to people, line by line.
+
+    Parameters
+    ----------
+    design : ProfileDesign
+    origin : str
+        How it stands to the stored one.
+    """
+    settings, promise = design.settings, design.guarantee
+    ticks, tick_s = settings.pieces.ticks, settings.tick_s
+    lasts = f"a move in {counted(ticks, 'tick')} of {tick_s:g} s, {ticks * tick_s:.6g} s"
+    yield f"{design.name}: {lasts}; a stop in {counted(settings.stop.ticks, 'tick')}"
+    for what, pieces, sizes in (
+        ("table", settings.pieces, design.table_bytes),
+        ("stop", settings.stop.pieces, design.stop_bytes),
+    ):
+        form = ("that hold a value", "of straight lines")[pieces.degree] if pieces.degree < 2 else ""
+        form = "of a tick each" if pieces.is_raw else form or f"of degree {pieces.degree}"
+        yield (
+            f"{what}: {counted(pieces.lengths.size, 'piece')} {form}, {counted(sizes[1], 'byte')} of"
+            f" {sizes[0]:,} as values"
+        )
+    share = per_cent(_largest_input_ratio(design))
+    yield (
+        f"proved: a move leaves at most {promise.final_error_ratio:g} of each state's largest, a stop from"
+        f" any tick {promise.stop_error_ratio:g}; both take up to {share} of the limits"
+    )
+    if origin != "new":
+        yield f"design: {origin}"
+
+
+def _table(pieces: Any, sizes: tuple[int, int]) -> dict[str, int]:
+    return {
+        "pieces": int(pieces.lengths.size),
+        "degree": pieces.degree,
+        "bytes": sizes[1],
+        "plain_bytes": sizes[0],
+    }
+
+
+def _largest_input_ratio(design: ProfileDesign) -> float:
+    """Largest share of the limits that the design's move, or a stop of it, takes: 1 at a limit."""
+    import numpy as np
+
+    low, high = design.settings.limits
+    inputs = design.numbered.references(np.array(design.settings.extremes.shape))
+    return float(np.abs(inputs - 0.5 * (low + high)).max() / (0.5 * (high - low)))

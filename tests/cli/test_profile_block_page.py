@@ -1,0 +1,68 @@
+"""The data sheet of the motion profile says what the block does."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from swayless.codegen.profile_pins import INPUTS, OUTPUTS
+from swayless.controller.profile import (
+    Extremes,
+    MotionProfile,
+    Pieces,
+    ProfileInput,
+    ProfileModel,
+    ProfileSettings,
+    ProfileStatus,
+    StopLaw,
+    explain_profile,
+)
+
+PAGE = (Path(__file__).parents[2] / "docs" / "profile-block.md").read_text(encoding="utf-8")
+MASS = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
+STOP = StopLaw(Pieces([2], [[[0.0, -0.5, 0.0]]]), [1.0, 1.0, 0.0])
+SHAPE = Pieces([2, 2], [[0.25], [-0.25]])
+SETTINGS = ProfileSettings(1.0, SHAPE, MASS, STOP, Extremes((-0.25, 0.25), (0.0, 1.0)), (-2.0, 2.0))
+"""The mass of 1 kg of the timing diagrams."""
+
+DIAGRAMS = re.findall(r"```text\n(tick .*?)```", PAGE, re.DOTALL)
+
+
+def cells(first_head):
+    (table,) = re.findall(rf"^\| {first_head} \|.*\n\|[-|]+\n((?:\|.*\n)+)", PAGE, re.MULTILINE)
+    return [[cell.strip().strip("`") for cell in line.split("|")[1:-1]] for line in table.splitlines()]
+
+
+def rows_of(diagram):
+    """Numbers of each line of a timing diagram, by its name."""
+    lines = (line.split() for line in diagram.splitlines())
+    return {name: [float(value) for value in values] for name, *values in lines}
+
+
+@pytest.mark.parametrize("diagram", DIAGRAMS, ids=range(len(DIAGRAMS)))
+def test_a_timing_diagram_is_what_the_reference_does(diagram):
+    rows = rows_of(diagram)
+    block = MotionProfile(SETTINGS)
+    columns = zip(rows["execute"], rows["abort"], rows["start"], rows["target"], strict=True)
+    outputs = [
+        block.step(ProfileInput(bool(execute), bool(abort), *move)) for execute, abort, *move in columns
+    ]
+    for pin in OUTPUTS:
+        assert rows[pin.field] == [float(getattr(out, pin.field)) for out in outputs], pin.field
+    assert list(rows) == ["tick", *(pin.field for pin in (*INPUTS, *OUTPUTS))]
+
+
+def test_the_timing_diagrams_show_every_output_true():
+    for pin in OUTPUTS:
+        assert any(any(rows_of(diagram)[pin.field]) for diagram in DIAGRAMS), pin.field
+
+
+def test_the_pin_table_is_that_of_the_generators():
+    found = [[row[0], row[1], row[4]] for row in cells("C")]
+    assert found == [[pin.c_name, pin.st_name, pin.doc] for pin in (*INPUTS, *OUTPUTS)]
+
+
+def test_the_status_table_is_that_of_the_controller():
+    assert cells("value") == [[str(bit.value), bit.name, explain_profile(bit)] for bit in ProfileStatus]
