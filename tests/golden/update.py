@@ -9,6 +9,9 @@ from pathlib import Path
 
 GOLDEN = Path(__file__).parent
 EXAMPLES = GOLDEN.parents[1] / "examples"
+STORED = ("*.design.json", "*.profile.json")
+"""Designs that a build keeps where a fresh one agrees."""
+
 NAMES = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
 
 
@@ -23,7 +26,7 @@ def built(
 ) -> dict[str, bytes]:
     """Build an example into a folder, beside a stored design if there is one; everything but the figures."""
     folder.mkdir(parents=True)
-    for design in stored.glob("*.design.json") if stored else ():
+    for design in (path for ending in STORED for path in stored.glob(ending)) if stored else ():
         shutil.copy(design, folder)
     build("build", f"{name}.toml", "-o", str(folder), "--no-verify")
     return files_below(folder)

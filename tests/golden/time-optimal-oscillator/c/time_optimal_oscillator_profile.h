@@ -1,0 +1,112 @@
+/*
+ * time_optimal_oscillator: motion profile. It plays a move computed ahead, from any start to any target.
+ *
+ * Made by swayless 0.1.0 from time-optimal-oscillator.toml.
+ * This file is yours: use, change and ship it as you like.
+ *
+ * Tick 0.005 s. A move takes 58 of them, 0.29 s, however far it goes; a stop 101.
+ * References from -5 to 5; a move that could need more is refused.
+ * Design: 0 to 1, robust of order 1, zero-order hold; SHA-256:
+ * 4c47292d03d7cc91023042fb1cd3b3e6ed89dc1f61e19278e0ae72f5e763daaa
+ * Proved with these numbers: a move leaves at most 1e-12 of each state's largest,
+ * a stop from any tick 1e-12; both keep the limits.
+ * Memory: 216 bytes of state at most, 2770 of tables.
+ *
+ * Call it once per tick. The plant rests when a move starts: what swings then swings on.
+ * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
+ * Nothing may limit, ramp or filter the reference on its way to the drive: the move is exact.
+ *
+ * Bit equality with the reference needs -ffp-contract=off. No heap, no library, no globals.
+ */
+#ifndef TIME_OPTIMAL_OSCILLATOR_PROFILE_H
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Length of a tick, in seconds: call time_optimal_oscillator_profile_step() once per tick.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_TICK_S (0.005)
+/// Ticks of a move: busy for so long, done at the next.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_TICKS (58u)
+/// Ticks of a stop: busy for so long after abort, aborted at the next.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_STOP_TICKS (101u)
+/// States of the plant's model.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES (4u)
+/// Upper bound of sizeof(time_optimal_oscillator_profile_t), in bytes; checked when compiled.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_RAM (216u)
+
+/// Status: execute rose while a move or a stop played, which goes on.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_EXECUTE_IGNORED ((uint32_t)1u << 0)
+/// Status: refused: abort was true when execute rose.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_ABORT_HELD ((uint32_t)1u << 1)
+/// Status: refused: start or target is not finite, or beyond 2**50.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_INPUT_NOT_FINITE ((uint32_t)1u << 2)
+/// Status: refused: the move, or a stop of it, would exceed the limits.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_LIMIT_EXCEEDED ((uint32_t)1u << 3)
+/// Status: refused: target less start is beyond the longest travel.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_TRAVEL_TOO_LONG ((uint32_t)1u << 4)
+/// Status: refused: start is not where the block rests, the reference would jump.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_START_ELSEWHERE ((uint32_t)1u << 5)
+/// Status: start is not finite or beyond the limits: the last good one holds.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_START_INVALID ((uint32_t)1u << 6)
+/// Status: abort was true: a stop plays.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_STOPPING ((uint32_t)1u << 7)
+
+/// Inputs of one tick.
+typedef struct {
+    bool execute; ///< its rising edge starts a move; ignored while one runs
+    bool abort; ///< true: a running move is brought to rest, and none starts
+    double start; ///< where the move starts; before the first move the block holds there
+    double target; ///< where it ends; read, as start is, when execute rises
+} time_optimal_oscillator_profile_input_t;
+
+/// Outputs of one tick.
+typedef struct {
+    double reference; ///< for the drive, in units of the plant's input
+    double position; ///< where the plant is now, by its model: the reference of a feedback
+    bool busy; ///< a move or a stop plays
+    bool done; ///< the target is reached; true while execute is, and for one tick at least
+    bool aborted; ///< a stop has come to rest; true as long as done would be
+    uint32_t status; ///< sum of the status bits
+} time_optimal_oscillator_profile_output_t;
+
+/// State of one profile. The caller owns it; nothing outside the two functions below may write to it.
+typedef struct {
+    double plant[TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES + 1u]; ///< states in a move by 1, and the last shape
+    double stop_from[TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES + 1u]; ///< the same when the stop began
+    double stop_terms[10]; ///< coefficients of the piece of the stop that plays
+    double position; ///< where the plant rests, or where the last move began
+    double start; ///< of the move
+    double target; ///< of the move
+    double travel; ///< of the move
+    uint32_t piece; ///< of the move or the stop, that plays next
+    uint32_t piece_tick; ///< ticks of it that have played
+    uint32_t refused; ///< status bits of the last refusal
+    bool executed; ///< execute of the tick before
+    bool placed; ///< a move was accepted: start no longer matters at rest
+    bool busy; ///< as the output
+    bool stopping; ///< a stop plays
+    bool done; ///< as the output
+    bool aborted; ///< as the output
+} time_optimal_oscillator_profile_t;
+
+/// Bring a profile to the state after power-on: at rest, waiting for a start. Cost: the states of the plant.
+/// @param profile not NULL; need not be initialised
+void time_optimal_oscillator_profile_init(time_optimal_oscillator_profile_t *profile);
+
+/// Run one tick: read the inputs, write every output. Never blocks, never fails; no division, nothing is searched.
+/// @param profile not NULL; initialised by time_optimal_oscillator_profile_init()
+/// @param input   not NULL; any value of any field is allowed, see there
+/// @param output  not NULL; written completely
+void time_optimal_oscillator_profile_step(time_optimal_oscillator_profile_t *profile, const time_optimal_oscillator_profile_input_t *input,
+    time_optimal_oscillator_profile_output_t *output);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
