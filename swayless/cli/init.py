@@ -24,6 +24,7 @@ class Example(StrEnum):
     two_axis_crane = "two-axis-crane"
     adaptive_robot = "adaptive-robot"
     time_optimal_oscillator = "time-optimal-oscillator"
+    inverted_servo = "inverted-servo"
 
 
 def init(
@@ -43,7 +44,8 @@ def init(
     The examples: a 15-ton gantry crane (double, for C and Structured Text), a workshop crane with a joystick
     (float), a flexible arm (int32, for C only), the gantry crane with a bank that covers all its ropes, a
     crane whose load hangs on a sling below the hook, one that hoists while it travels, an arm whose elbow
-    turns, a crane with two axes; a robot that learns its vibration; and a move computed ahead.
+    turns, a crane with two axes; a robot that learns its vibration; and two moves computed
+    ahead, the fastest of an oscillator and one of a servo drive by inversion.
 
     Examples
     --------

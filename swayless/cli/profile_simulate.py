@@ -20,7 +20,7 @@ from swayless.cli.profile_optimal import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from swayless.cli.profile_loop import Move
     from swayless.design.optimal import Feedback, LinearPlant
@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 FileArgument = Annotated[
     Path,
     typer.Argument(
-        metavar="FILE.toml", help="A profile file, or a machine file with a crane.", show_default=False
+        metavar="FILE.toml",
+        help="A profile file, one of an inversion, or a machine file with a crane.",
+        show_default=False,
     ),
 ]
 OffOption = Annotated[
@@ -143,9 +145,28 @@ def _move(file: Path, options: Mapping[str, str], axis: str | None) -> Move:
     from swayless.cli.option_table import option_table
     from swayless.cli.profile_loop import Move
     from swayless.cli.profile_work import found_for
-    from swayless.machine.profile_file import load_profile
+    from swayless.machine.inversion import asks_for_inversion
+    from swayless.machine.profile_file import load_profile, toml_document
 
+    if asks_for_inversion(toml_document(file)):
+        return _inverted(file, [*options, *([] if axis is None else ["axis"])])
     request = load_profile(file, option_table(options, []).raw, axis=axis)
     task = request.task
     command = found_for(request).command
     return Move(request.name, task.plant, command, task.limits, task.start, task.target)
+
+
+def _inverted(file: Path, given: Sequence[str]) -> Move:
+    """Find the command of a file that asks for an inversion."""
+    from swayless.cli.option_table import refuse
+    from swayless.cli.profile_loop import Move
+    from swayless.machine.inversion import inverted_move
+
+    refuse(
+        [
+            f"--{key.replace('_', '-')}: belongs to the fastest move; {file} asks for one by inversion"
+            for key in given
+        ]
+    )
+    found = inverted_move(file)
+    return Move(found.name, found.plant, found.command, found.limits, found.start, found.target)

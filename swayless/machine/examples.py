@@ -16,8 +16,8 @@ from typing import Literal, TypeAlias
 from swayless.errors import FileError
 from swayless.machine.problems import nearest
 
-ExampleKind: TypeAlias = Literal["machine", "adaptive", "move"]
-"""What an example describes: a machine, an adaptive shaper, or a move computed ahead."""
+ExampleKind: TypeAlias = Literal["machine", "adaptive", "move", "inversion"]
+"""What an example describes: a machine, an adaptive shaper, the fastest move, or one by inversion."""
 
 EXAMPLES: Mapping[str, ExampleKind] = MappingProxyType(
     {
@@ -31,6 +31,7 @@ EXAMPLES: Mapping[str, ExampleKind] = MappingProxyType(
         "two-axis-crane": "machine",
         "adaptive-robot": "adaptive",
         "time-optimal-oscillator": "move",
+        "inverted-servo": "inversion",
     }
 )
 """Names of the examples, in the order in which to read them, and what each one describes."""
@@ -61,7 +62,23 @@ def example_text(name: str) -> str:
     >>> 'name = "srtc_gantry"' in example_text("srtc-gantry")
     True
     """
+    return example_path(name).read_text(encoding="utf-8")
+
+
+def example_path(name: str) -> Path:
+    """Give the file of an example.
+
+    Raises
+    ------
+    FileError
+        If there is no such example.
+
+    Examples
+    --------
+    >>> example_path("inverted-servo").name
+    'inverted-servo.toml'
+    """
     if name not in EXAMPLES:
         raise FileError([f"example {name!r}: unknown; {nearest(name, tuple(EXAMPLES))}"])
     folder = _IN_WHEEL if _IN_WHEEL.is_dir() else _IN_CHECKOUT
-    return (folder / f"{name}.toml").read_text(encoding="utf-8")
+    return folder / f"{name}.toml"

@@ -70,10 +70,24 @@ class _Overlaid(Table):
 def is_profile(path: Path) -> bool:
     """Whether a TOML file has a section ``[plant]`` or ``[move]``; whatever else is wrong is for others."""
     try:
-        document = tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
-    except (ValueError, RecursionError):
+        document = toml_document(path)
+    except FileError:
         return False
     return not _is_machine(document) and any(isinstance(document.get(key), dict) for key in ("plant", "move"))
+
+
+def toml_document(path: Path) -> dict[str, object]:
+    """Read a TOML file.
+
+    Raises
+    ------
+    FileError
+        If it cannot be read, or is no TOML.
+    """
+    try:
+        return tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
+    except (ValueError, RecursionError) as error:
+        raise FileError([f"{path}: not valid TOML: {error}"]) from error
 
 
 def _is_machine(document: Mapping[str, object]) -> bool:
@@ -109,7 +123,7 @@ def load_profile(
     1.0
     """
     report = Report("" if path is None else str(path))
-    document = {} if path is None else _parse(path)
+    document = {} if path is None else toml_document(path)
     if path is not None and _is_machine(document):
         name, plant, move = _of_machine(path, options, report, axis)
     else:
@@ -118,13 +132,6 @@ def load_profile(
     if request is None or report.problems:
         raise FileError(report.problems)
     return request
-
-
-def _parse(path: Path) -> dict[str, object]:
-    try:
-        return tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
-    except (ValueError, RecursionError) as error:
-        raise FileError([f"{path}: not valid TOML: {error}"]) from error
 
 
 def _of_profile(

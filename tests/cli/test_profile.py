@@ -317,3 +317,15 @@ def test_a_crane_is_simulated_on_other_ropes(run, tmp_path):
     longer = LinearPlant.from_transfer_function([w2], [1.0, 0.0, w2, 0.0])
     output = output_at_ticks(longer, played(document), ticks=len(document["runs"][0]["output"]) - 1)
     assert document["runs"][0]["output"] == pytest.approx(output.tolist(), abs=1e-9)
+
+
+def test_an_inverted_move_is_simulated_too(run):
+    servo = EXAMPLE.with_name("inverted-servo.toml")
+    document = found(run("profile", "simulate", servo, "--off", "0.9", "--json"))
+    off, nominal = document["runs"]
+    assert nominal["left"] < 1e-9
+    assert off["left"] > 0.05
+    assert nominal["output"][: len(document["reference"])] == pytest.approx(document["reference"], abs=1e-12)
+    done = run("profile", "simulate", servo, "--limit", "5", "--axis", "x")
+    assert (done.code, done.out, len(done.err.splitlines())) == (2, "", 2)
+    assert "--limit: belongs to the fastest move" in done.err

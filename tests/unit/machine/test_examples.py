@@ -17,6 +17,7 @@ from swayless.machine import (
 from swayless.machine.adaptive_file import load_adaptive
 from swayless.machine.designing import design_machine
 from swayless.machine.examples import EXAMPLES
+from swayless.machine.inversion_file import load_inversion
 from swayless.machine.machine_file import load_axes
 from swayless.machine.profile_file import load_profile
 
@@ -34,7 +35,11 @@ def test_init_writes_every_example_there_is() -> None:
 
 
 def test_each_example_is_read_as_what_it_describes() -> None:
-    read = {"adaptive": load_adaptive, "move": lambda path: load_profile(path, {})}
+    read = {
+        "adaptive": load_adaptive,
+        "move": lambda path: load_profile(path, {}),
+        "inversion": load_inversion,
+    }
     for name, kind in EXAMPLES.items():
         if kind in read:
             assert read[kind](FOLDER / f"{name}.toml").name == name.replace("-", "_")
