@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from swayless.machine.identified_record import Reading, ReadRecord, read_peaks, 
 from swayless.machine.identified_table import load_table
 from swayless.machine.identified_units import TIME_UNITS, VALUE_UNITS, unit_named
 from swayless.machine.plant_section import LENGTH
+from swayless.machine.problems import shown
 from swayless.plant.identification import (
     Decrement,
     IdentifiedMode,
@@ -39,6 +41,8 @@ from swayless.plant.identification import (
 
 PERIOD = quantity("time", 1e-4, 1e5)
 RATE = quantity("frequency", 1e-3, 1e9)
+_SEVERAL = re.compile(r"[0-9]\s*(?:;|,\s|,.*[.,])|\..*,")
+_DECIMAL_COMMA = re.compile(r"(?<=[0-9]),(?=[0-9])")
 _ANGLE = re.compile(r"([+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?)\s*(\S+)")
 
 
@@ -126,6 +130,7 @@ def identified(asked: Asked, *, plot: Path | None = None) -> AllFound:
     FileError
         If a record cannot be read, or shows no swing: with the line where there is one.
     """
+    asked = _with_points(asked)
     problems = _conflicts(asked, plot)
     options = option_table(
         {
@@ -164,6 +169,23 @@ def _each(check: Callable[..., float | None]) -> Callable[..., tuple[float, ...]
         return good if len(good) == len(numbers) else None
 
     return checked
+
+
+def _with_points(asked: Asked) -> Asked:
+    """Read decimal commas; several values in one, which commas may also mean, are refused."""
+    changed: dict[str, Any] = {}
+    for key in ("periods", "rope_length", "amplitude", "rate", "start", "end"):
+        given = getattr(asked, key)
+        texts = given if isinstance(given, tuple) else (given,)
+        several = [text for text in texts if text and _SEVERAL.search(text)]
+        if several:
+            option = f"--{key.replace('_', '-')}"
+            raise OptionError(
+                [f"{option} = {shown(text)}: must be one value: blanks separate several" for text in several]
+            )
+        pointed = tuple(text and _DECIMAL_COMMA.sub(".", text) for text in texts)
+        changed[key] = pointed if isinstance(given, tuple) else pointed[0]
+    return replace(asked, **changed)
 
 
 def _conflicts(asked: Asked, plot: Path | None) -> list[str]:
@@ -219,7 +241,7 @@ def _resolution_s(text: str) -> float:
     """Give the size of the last digit of a time, in s."""
     number = text.strip().rstrip("abcdefghijklmnopqrstuvwxyz ")
     unit_s = TIME_UNITS[text.strip()[len(number) :].strip() or "s"]
-    return unit_s * 10.0 ** -len(number.partition(".")[2])
+    return unit_s * 10.0 ** int(Decimal(number).as_tuple().exponent)
 
 
 def _swings(path: Path, reading: Reading, asked: Asked) -> Iterator[Found]:

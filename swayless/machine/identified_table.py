@@ -7,6 +7,7 @@ Not for: which column is what (`swayless.machine.identified_record`).
 
 from __future__ import annotations
 
+import codecs
 import csv
 import math
 import re
@@ -33,6 +34,7 @@ _NUMBER = re.compile(
 )
 _DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
 _NAME_AND_UNIT = re.compile(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
+_SEPARATOR = re.compile(r"\"?sep=(.)\"?\s*", re.IGNORECASE)
 _DELIMITERS = (";", "\t", ",", None)
 _SAMPLE = 20
 
@@ -65,20 +67,25 @@ def load_table(path: Path) -> RecordTable:
     Parameters
     ----------
     path : Path
-        UTF-8 text. Blank lines and lines that begin with ``#`` do not count.
+        UTF-8 text, or UTF-16 with its byte order mark. Blank lines, lines that begin with ``#`` and a first
+        line ``sep=;``, which spreadsheets write, do not count.
 
     Raises
     ------
     FileError
         With every problem found: file, line, cell and what is allowed.
     """
-    text = read_source(path, max_bytes=MAX_BYTES).replace("\r\n", "\n").replace("\r", "\n")
+    text = _text(path).replace("\r\n", "\n").replace("\r", "\n")
     lines = text.split("\n")
     kept = [index for index, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
+    separator = _SEPARATOR.fullmatch(lines[kept[0]]) if kept else None
+    kept = kept[1:] if separator else kept
     if not kept:
         raise FileError([f"{path}: is empty: a record has a line for each sample, with a time and a value"])
     contents, number = [lines[index] for index in kept], np.array(kept, dtype=np.int64) + 1
-    delimiter = _delimiter(contents[1 : _SAMPLE + 1] or contents)
+    delimiter = _delimiter(
+        contents[1 : _SAMPLE + 1] or contents, separator[1].strip(" ") if separator else ""
+    )
     names, units, first = _heads(_split(contents[:2], delimiter), delimiter)
     if first == len(contents):
         raise FileError([f"{path}: line {number[-1]}: has no numbers: a record has a line for each sample"])
@@ -96,9 +103,33 @@ def load_table(path: Path) -> RecordTable:
     return RecordTable(path, tuple(heads[column] for column in filled), values[:, filled], number[first:])
 
 
-def _delimiter(sample: Sequence[str]) -> str | None:
+def _text(path: Path) -> str:
+    """Read a file; spreadsheets write UTF-16 too, and say so in its first bytes."""
+    try:
+        with path.open("rb") as stream:
+            mark = stream.read(2)
+            wide = mark in {codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE}
+            data = mark + stream.read(MAX_BYTES) if wide else b""
+    except (OSError, ValueError):
+        wide = False  # `read_source` says why.
+    if not wide:
+        text = read_source(path, max_bytes=MAX_BYTES)
+        if "\0" in text:
+            line = text.count("\n", 0, text.index("\0")) + 1
+            raise FileError([f"{path}: line {line}: holds null bytes, which no text does: save it as UTF-8"])
+        return text
+    if len(data) > MAX_BYTES:
+        raise FileError([f"{path}: is larger than {MAX_BYTES} bytes, the most that is read"])
+    try:
+        return data.decode("utf-16")
+    except UnicodeDecodeError as error:
+        raise FileError([f"{path}: is not UTF-16 text, as its first bytes say: save it as UTF-8"]) from error
+
+
+def _delimiter(sample: Sequence[str], likely: str) -> str | None:
     """Find what separates the cells: what leaves most of them numbers; None for blanks."""
-    present = [each for each in _DELIMITERS if each is None or any(each in line for line in sample)]
+    known = (likely, *_DELIMITERS) if likely else _DELIMITERS
+    present = [each for each in known if each is None or any(each in line for line in sample)]
     return max(present, key=lambda each: _numeric_part(sample, each))
 
 

@@ -188,10 +188,10 @@ def test_a_stopwatch_gives_a_frequency_and_no_damping(run):
     assert corrected["frequency_hz"] == pytest.approx(slower / 6.1, rel=1e-5)
 
 
-def test_the_unit_of_a_stopwatch_does_not_matter(run):
+def test_the_unit_and_the_decimal_mark_of_a_stopwatch_do_not_matter(run):
     seconds, milliseconds = (
         found(run("identify", "--periods", *periods, "--json"))["frequency_hz_std"]
-        for periods in (("6.100", "6.000", "6.200"), ("6100 ms", "6000ms", "6200 ms"))
+        for periods in (("6,100", "6,000 s", "6,200"), ("6100 ms", "6000ms", "6200 ms"))
     )
     assert milliseconds == pytest.approx(seconds)
 
@@ -244,6 +244,8 @@ def test_the_fit_is_drawn(run, record, tmp_path):
         ((), "give a record, or --periods"),
         (("none.csv",), "none.csv: cannot be read: there is no such file"),
         (("--periods", "-6"), "--periods = -6: must be > 0"),
+        (("--periods", "6,1", "60"), "readings from 6.1 to 60 s differ by more than half a swing: must be"),
+        (("--periods", "6.1,6.0"), '--periods = "6.1,6.0": must be one value: blanks separate several'),
         (("--periods", "six"), '--periods = "six": is not a time: allowed units are s, ms, us, min'),
         (("swing.csv", "--periods", "6"), "--periods beside records: only with --peaks"),
         (("swing.csv", "--both-sides"), "--both-sides is for --peaks"),

@@ -15,6 +15,9 @@ from swayless.plant.identification.record import FloatArray
 REACTION_S = 0.15
 """Standard deviation of one reading, start and stop by hand, where a single one does not tell."""
 
+_SAME_COUNT = 0.5
+"""Readings that differ by more, in swings, hold different numbers of them."""
+
 LARGEST_ANGLE_RAD = math.pi / 2.0
 
 
@@ -37,7 +40,7 @@ def identify_periods(
     Raises
     ------
     PlantError
-        If a value is out of range.
+        If a value is out of range, or the readings differ by more than half a swing.
 
     References
     ----------
@@ -58,6 +61,11 @@ def identify_periods(
         raise PlantError(f"swings = {swings}: must be at least 1")
     if not 0.0 <= amplitude_rad < LARGEST_ANGLE_RAD:
         raise PlantError(f"amplitude_rad = {amplitude_rad!r}: must be at least 0 and below a right angle")
+    if np.ptp(reading_s) > _SAME_COUNT * reading_s.min() / swings:
+        raise PlantError(
+            f"readings from {reading_s.min():g} to {reading_s.max():g} s differ by more than half a swing:"
+            " must be the same number of swings each"
+        )
     count = reading_s.size
     rounding_s = resolution_s / math.sqrt(12.0)
     one_std = REACTION_S if count == 1 else float(np.std(reading_s, ddof=1)) * student_ratio(count - 1)

@@ -50,12 +50,13 @@ def refusal(read, text, **reading):
         ]
     ),
     end=st.sampled_from(["\n", "\r\n", "\r"]),
-    mark=st.sampled_from([b"", b"\xef\xbb\xbf"]),
+    first=st.sampled_from(["", "sep={0}\n"]),
+    coding=st.sampled_from(["utf-8", "utf-8-sig", "utf-16"]),
     quoted=st.booleans(),
     values=st.lists(st.floats(-1e6, 1e6, allow_subnormal=False), min_size=8, max_size=12),
 )
 def test_every_dialect_gives_the_same_numbers(
-    tmp_path_factory, separator, comma, head, end, mark, quoted, values
+    tmp_path_factory, separator, comma, first, head, end, coding, quoted, values
 ):
     times = 0.1 * np.arange(len(values))
     decimal = "," if comma and separator.strip() != "," else "."
@@ -66,7 +67,8 @@ def test_every_dialect_gives_the_same_numbers(
 
     rows = "".join(f"{cell(float(t))}{separator}{cell(v)}\n" for t, v in zip(times, values, strict=True))
     path = tmp_path_factory.mktemp("dialect") / "swing.csv"
-    path.write_bytes(mark + (head.format(separator) + rows).replace("\n", end).encode())
+    text = first.format(separator.strip(" ") or " ") + head.format(separator) + rows
+    path.write_bytes(text.replace("\n", end).encode(coding))
     (found,) = read_swings(load_table(path), Reading())
     np.testing.assert_array_equal(found.record.time_s, times)
     np.testing.assert_array_equal(found.record.value, values)
@@ -159,6 +161,9 @@ def test_a_rope_column_makes_a_record_of_each_rope(read):
         (f"time,x\n{ROWS},0.1\n", "line 22: the time is missing or infinite"),
         (f"time,x\n{ROWS}5.0,inf\n", "line 22: value is infinite"),
         ("time,x\n0,1\n1,2\n", "lines 2 to 3: 2 samples: must be at least 8"),
+        ("sep=;\n", "is empty: a record has a line for each sample, with a time and a value"),
+        ("time,x\n0,1\0\n", "line 2: holds null bytes, which no text does: save it as UTF-8"),
+        (b"\xff\xfet", "is not UTF-16 text, as its first bytes say: save it as UTF-8"),
         (b"time,x\n0,\xb0\n", "is not UTF-8 text: byte 0xb0 in line 2"),
     ],
 )  # fmt: skip
