@@ -120,9 +120,11 @@ def adaptive_stimuli(settings: AdaptiveSettings) -> Iterator[Stimulus]:
 def _closed_loop(settings: AdaptiveSettings, noise: float, *, seed: int) -> NDArray[np.void]:
     """Let a robot of 0.4 periods a delay move at random, then with another payload."""
     random = np.random.default_rng(seed)
-    inputs = _blank(settings, MOVES * _move_ticks(settings))
-    levels = random.uniform(-1.0, 1.0, MOVES) * settings.max_command
-    inputs["command"] = np.repeat(levels, _move_ticks(settings))
+    lasts = np.full(MOVES, _move_ticks(settings))
+    too_short = settings.quiet_ticks + settings.window_ticks
+    lasts[2::3] = random.integers(1, too_short, lasts[2::3].size)  # windows are put together
+    inputs = _blank(settings, int(lasts.sum()))
+    inputs["command"] = np.repeat(random.uniform(-1.0, 1.0, MOVES) * settings.max_command, lasts)
     delay_s = settings.delay_ticks * settings.tick_s
     robot = FlexibleRobot(Mode(0.4 / delay_s, 0.01), settings.tick_s)
     per_speed = settings.vibration_scale * delay_s / (2.5 * settings.max_command)
@@ -130,7 +132,7 @@ def _closed_loop(settings: AdaptiveSettings, noise: float, *, seed: int) -> NDAr
     shaper, scalar, vibration = AdaptiveShaper(settings), settings.number.scalar, 0.0
     for tick, (command, error) in enumerate(zip(inputs["command"].tolist(), errors.tolist(), strict=True)):
         if tick == inputs.size // 2:
-            robot.load(Mode(0.2 / delay_s, 0.01))
+            robot.load(Mode(0.2 / delay_s, 0.05))  # sinks into noise within a rest
         inputs["vibration"][tick] = vibration + error
         pins = AdaptiveInput(scalar(command), scalar(inputs["vibration"][tick]))
         vibration = per_speed * robot.step(float(shaper.step(pins).reference))
@@ -145,7 +147,7 @@ def _spoilt(settings: AdaptiveSettings, inputs: NDArray[np.void], *, seed: int) 
     for name in ("command", "vibration"):
         ticks = random.integers(0, inputs.size, 4 * len(odd))
         spoilt[name][ticks] = np.resize(odd, ticks.size)
-    spoilt["enable"] = np.repeat(random.random(MOVES) > 0.2, _move_ticks(settings))
+    spoilt["enable"] = np.repeat(random.random(MOVES) > 0.2, _move_ticks(settings))[: inputs.size]
     return spoilt
 
 
@@ -158,7 +160,7 @@ def _noise_alone(settings: AdaptiveSettings, *, seed: int) -> NDArray[np.void]:
 
 
 def _move_ticks(settings: AdaptiveSettings) -> int:
-    """So long lasts a move: until the vibration is free, and two windows and a half."""
+    """So long lasts a move at most: until the vibration is free, and two windows and a half."""
     return settings.quiet_ticks + (5 * settings.window_ticks) // 2
 
 

@@ -9,7 +9,7 @@ from swayless.codegen.adaptive_model import AdaptiveModel
 from swayless.controller import number_type
 from swayless.controller.adaptive import AdaptiveSettings, AdaptiveStatus
 from swayless.errors import CodegenError
-from swayless.verify import COMPILERS, find_compiler
+from swayless.verify import COMPILERS, adaptive, find_compiler
 from swayless.verify.adaptive import adaptive_stimuli, run_adaptive_reference, verify_adaptive
 
 PRESENT = [compiler for compiler in COMPILERS if compiler.name == "zig" or compiler.is_installed()]
@@ -23,8 +23,9 @@ def model_of(settings, number):
 
 
 @pytest.mark.parametrize("number", ["double", "float"])
-@pytest.mark.parametrize("settings", [SMALL, ROBOT], ids=["small", "robot"])
-def test_every_bit_of_every_output_is_the_reference_s(settings, number):
+@pytest.mark.parametrize(("settings", "moves"), [(SMALL, 30), (ROBOT, 9)], ids=["small", "robot"])
+def test_every_bit_of_every_output_is_the_reference_s(settings, moves, number, monkeypatch):
+    monkeypatch.setattr(adaptive, "MOVES", moves)
     model = model_of(settings, number)
     files = {target: generate_adaptive(model, target) for target in ("c", "st")}
     verdicts = verify_adaptive(model, c_files=files["c"], st_files=files["st"], compiler=find_compiler())
@@ -34,7 +35,8 @@ def test_every_bit_of_every_output_is_the_reference_s(settings, number):
 
 
 @pytest.mark.parametrize("compiler", PRESENT, ids=lambda compiler: compiler.name)
-def test_every_compiler_accepts_the_code_without_a_warning(compiler):
+def test_every_compiler_accepts_the_code_without_a_warning(compiler, monkeypatch):
+    monkeypatch.setattr(adaptive, "MOVES", 4)
     model = model_of(SMALL, "float")
     verdicts = verify_adaptive(model, c_files=generate_adaptive(model, "c"), compiler=compiler)
     assert all(each.comparison.is_equal for each in verdicts)
@@ -49,11 +51,16 @@ def test_the_stimuli_reach_every_status_bit():
     assert AdaptiveStatus(seen) == AdaptiveStatus((1 << 10) - 1)
 
 
-def test_a_wrong_sign_is_found():
+@pytest.mark.parametrize(
+    ("right", "wrong"), [("Shaping AND Fresh", "Shaping"), ("DiffW * PastUw", "DiffW * PastUu")]
+)
+def test_what_is_left_out_or_wrong_is_found(right, wrong, monkeypatch):
+    monkeypatch.setattr(adaptive, "MOVES", 10)
     model = model_of(SMALL, "double")
     (file,) = generate_adaptive(model, "st")
-    wrong = dataclasses.replace(file, text=file.text.replace("Shaping AND Fresh", "Shaping"))
-    verdicts = list(verify_adaptive(model, st_files=[wrong]))
+    changed = dataclasses.replace(file, text=file.text.replace(right, wrong))
+    assert changed != file
+    verdicts = verify_adaptive(model, st_files=[changed])
     assert any(not each.comparison.is_equal for each in verdicts)
 
 
