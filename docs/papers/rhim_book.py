@@ -83,8 +83,8 @@ class ToTheLetter:
 
     def __init__(self, delay_ticks: int, forgetting: float) -> None:
         self.delay, self.forgetting = delay_ticks, forgetting
-        self.p = 1e7 * np.eye(3)
-        self.gamma = self.p.sum(axis=1)
+        self.p = [[1e7 * (row == column) for column in range(3)] for row in range(3)]
+        self.gamma = [1e7] * 3
         self.commands = self.vibrations = [0.0] * (2 * delay_ticks + 1)
         self.tick = self.rest = 0
 
@@ -94,18 +94,32 @@ class ToTheLetter:
         self.commands = [*self.commands[1:], command]
         self.vibrations = [*self.vibrations[1:], vibration / unshaped_m_s2()]
         if self.rest >= 2 * self.delay and self.tick > RAMP_TICKS:
-            self.adapt(np.array(self.vibrations[:: -self.delay]))
+            self.adapt(self.vibrations[:: -self.delay])
         self.tick += 1
-        coefficients = (self.gamma / self.gamma.sum()).tolist()
+        total = sum(self.gamma)
+        coefficients = [gamma / total for gamma in self.gamma]
         if self.tick <= CYCLE_TICKS:
             return command, coefficients
-        return float(np.dot(coefficients, self.commands[:: -self.delay])), coefficients
+        return _product(coefficients, self.commands[:: -self.delay]), coefficients
 
-    def adapt(self, w: Floats) -> None:
+    def adapt(self, w: Sequence[float]) -> None:
         """Eqs 13 to 15."""
-        k = self.p @ w / (self.forgetting + w @ self.p @ w)
-        self.gamma = (self.gamma - k * (w @ self.gamma)) / self.forgetting
-        self.p = (self.p - np.outer(k, w @ self.p)) / self.forgetting
+        pw, wp = (
+            [_product(row, w) for row in self.p],
+            [_product(column, w) for column in zip(*self.p, strict=True)],
+        )
+        k = [each / (self.forgetting + _product(w, pw)) for each in pw]
+        left = _product(w, self.gamma)
+        self.gamma = [(g - each * left) / self.forgetting for g, each in zip(self.gamma, k, strict=True)]
+        self.p = [
+            [(old - each * across) / self.forgetting for old, across in zip(row, wp, strict=True)]
+            for row, each in zip(self.p, k, strict=True)
+        ]
+
+
+def _product(a: Sequence[float], b: Sequence[float]) -> float:
+    """Inner product of three numbers each: numpy takes longer to begin."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 class Run(NamedTuple):

@@ -35,7 +35,7 @@ def corrected(known, around):
     return [around[0] + d0, around[1] - (d0 + d2), around[2] + d2]
 
 
-@settings(derandomize=True, deadline=None, max_examples=25)
+@settings(derandomize=True, deadline=None, max_examples=12)
 @given(
     noise=st.floats(0.0, 0.5),
     phase=st.floats(0.2, 3.0),
@@ -131,7 +131,7 @@ def test_pure_noise_teaches_nothing():
     random = np.random.default_rng(3)
     experiment = Experiment()
     learner = experiment.shaper._learner
-    for value in random.standard_normal(200_000).tolist():
+    for value in random.standard_normal(80_000).tolist():
         learner.learn(value, *random.standard_normal(2).tolist(), in_use=False)
     assert learner.is_frozen
     assert not learner.has_learned

@@ -34,7 +34,7 @@ def settings_of(**changes):
     return AdaptiveSettings(**(values | changes))
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(derandomize=True, deadline=None, max_examples=30)
 @given(
     moves=st.lists(st.tuples(ANY, ANY, st.booleans(), st.integers(1, 120)), max_size=12),
     phase=st.floats(0.0, 3.0),
