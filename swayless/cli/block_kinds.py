@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -71,12 +70,12 @@ def stored_block(path: Path) -> Make | None:
 
 def _toml(path: Path) -> dict[str, object]:
     """Parse a file; whatever is wrong with it is for others to report."""
-    from swayless.machine.machine_file import MAX_BYTES
-    from swayless.machine.source import read_source
+    from swayless.errors import FileError
+    from swayless.machine.profile_file import toml_document
 
     try:
-        return tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
-    except (ValueError, RecursionError):
+        return toml_document(path)
+    except FileError:
         return {}
 
 

@@ -82,10 +82,14 @@ def build(
     the same. With --check nothing is written or proved: figures apart, every file is compared with what would
     be written.
 
+    A file of an adaptive shaper, or of a move computed ahead, gives that block: NAME.adaptive.json or
+    NAME.profile.json is its design then.
+
     Examples
     --------
     swayless build crane.toml
     swayless build crane.toml -o out/crane --check
+    swayless build time-optimal-oscillator.toml
     """
     from swayless.cli.block_build import build_block, drawn, report_check
     from swayless.cli.block_kinds import described_block

@@ -40,7 +40,8 @@ def generate(
     """Generate C or Structured Text from a design file.
 
     The same design file gives the same bytes, on every machine and for ever. Structured Text is generated in
-    LREAL (double) or REAL (float), C in int32 too.
+    LREAL (double) or REAL (float), C in int32 too. The stored file of an adaptive shaper or of a motion
+    profile is a design file too, in its own number type.
 
     Examples
     --------

@@ -82,11 +82,10 @@ def profile_lines(design: ProfileDesign, origin: str) -> Iterator[str]:
         ("table", settings.pieces, design.table_bytes),
         ("stop", settings.stop.pieces, design.stop_bytes),
     ):
-        form = ("that hold a value", "of straight lines")[pieces.degree] if pieces.degree < 2 else ""
-        form = "of a tick each" if pieces.is_raw else form or f"of degree {pieces.degree}"
+        form = "plain values" if pieces.is_raw else f"polynomials of degree {pieces.degree}"
         yield (
-            f"{what}: {counted(pieces.lengths.size, 'piece')} {form}, {counted(sizes[1], 'byte')} of"
-            f" {sizes[0]:,} as values"
+            f"{what}: {counted(pieces.lengths.size, 'piece')}, {form}: {counted(sizes[1], 'byte')} instead of"
+            f" {sizes[0]:,}"
         )
     share = per_cent(_largest_input_ratio(design))
     yield (

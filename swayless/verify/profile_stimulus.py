@@ -23,10 +23,10 @@ SCALES = (1.0, -1.0, 0.37, -0.61, 1e-3)
 PHASES = 24
 """Ticks of a move at which it is aborted: all of a short one."""
 
-MOST_TICKS = 60_000
+MOST_TICKS = 40_000
 """Of one stimulus: of a move of thousands of ticks not every scale is played, nor each phase aborted."""
 
-LONGEST_SOAK = 200_000
+LONGEST_SOAK = 100_000
 """Nothing of a move outlives the next one: more of them show no more."""
 
 MOST_HALVINGS = 54

@@ -15,6 +15,7 @@ ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "time-optimal-oscillator.toml"
 PAGE = (ROOT / "docs" / "profile-block.md").read_text(encoding="utf-8")
 NAME = "time_optimal_oscillator"
+(SHOWN,) = re.findall(rf"```text\n({NAME}: .*?)```", PAGE, re.DOTALL)
 FILES = [
     f"c/{NAME}_example.c",
     f"c/{NAME}_profile.c",
@@ -60,15 +61,13 @@ def test_the_example_builds_is_proved_and_can_be_checked_and_verified_again(run,
     checked = run("build", EXAMPLE, "-o", out, "--check")
     assert (checked.code, checked.out) == (0, f"{out}: 5 files as generated, 1 figure there\n")
     again = run("build", EXAMPLE, "-o", out, "--no-verify")
-    assert "design: kept as stored" in again.out
-    assert "verified: not run (--no-verify)" in again.out
+    assert again.out.startswith(f"{SHOWN}design: kept as stored\nverified: not run (--no-verify)\n")
     code = out / "st" / f"FB_{NAME}_Profile.st"
     code.write_text(code.read_text().replace("Position := MoveStart +", "Position := MoveStart -"))
     verified = run("verify", out, *FEW)
     assert verified.code == 1
     assert "verified: C by" in verified.out
     assert "DIFFERS: ST by evaluator, LREAL" in verified.out
-    assert run("build", EXAMPLE, "-o", out, "--check").code == 1
 
 
 def test_a_stored_file_gives_the_same_code(run, stored, tmp_path):
