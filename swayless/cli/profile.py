@@ -5,8 +5,10 @@ from __future__ import annotations
 import typer
 
 from swayless.cli.help_text import help_text
+from swayless.cli.profile_invert import invert
 from swayless.cli.profile_optimal import optimal
 from swayless.cli.profile_simulate import simulate
+from swayless.cli.profile_tune import tune
 
 
 def _profile() -> None:
@@ -17,6 +19,7 @@ def _profile() -> None:
     swayless profile optimal move.toml
     swayless profile optimal crane.toml --rope-length "6 m" --target 12 -o move.csv
     swayless profile simulate move.toml --feedback "2 0.15"
+    swayless profile invert servo.toml -o move.csv
     """
 
 
@@ -34,3 +37,7 @@ profile_app.command(help=help_text(optimal), short_help="The fewest ticks, or th
 profile_app.command(help=help_text(simulate), short_help="A move on plants that are off, with a feedback.")(
     simulate
 )
+profile_app.command(
+    help=help_text(invert), short_help="A load along a polynomial, by inversion of its plant."
+)(invert)
+profile_app.command(help=help_text(tune), short_help="Parameters of a drive from a measured move.")(tune)

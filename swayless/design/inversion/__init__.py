@@ -3,6 +3,7 @@
 Not for: commands within limits (`swayless.design.optimal`), and plants with zeros in the right half plane.
 """
 
+from swayless.design.inversion.closed_form import ClosedForm, closed_form
 from swayless.design.inversion.inverse import DEFAULT_TRUNCATION, InvertedCommand, invert
 from swayless.design.inversion.misfit import MeasuredMove, Misfit, cost
 from swayless.design.inversion.motion import PolynomialMotion
@@ -17,6 +18,7 @@ from swayless.design.inversion.tuning import (
 )
 
 __all__ = [
+    "ClosedForm",
     "DEFAULT_TRUNCATION",
     "InvertedCommand",
     "MeasuredMove",
@@ -26,6 +28,7 @@ __all__ = [
     "PAPER_WEIGHTS",
     "PolynomialMotion",
     "Step",
+    "closed_form",
     "cost",
     "gradient",
     "invert",

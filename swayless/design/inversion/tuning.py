@@ -28,7 +28,7 @@ PAPER_WEIGHTS = (1e-3, 1e-3, 1.0, 1.0, 10.0)
 
 _ROUNDS = 60
 _HALVINGS = 12
-_CONVERGED = 1e-6  # of a parameter: a step that changes none by more is the last
+_CONVERGED = 1e-6  # of what is left: a step that gains less is the last
 _LONGEST = 1.0  # of a step, in logarithms: farther, a line says nothing
 _KNOWN_TO = 0.5  # in logarithms: how well each parameter is known before the record
 
@@ -128,42 +128,54 @@ def scaled_step(drive: ElasticDrive, motion: PolynomialMotion, moves: Sequence[M
     """
     _check_damping(drive)
     misfit = Misfit(drive, motion, moves)
-    found, moved = drive, np.zeros(drive.tuned.size)
+    place = _Place(drive, np.zeros(drive.tuned.size), misfit.left(drive))
     for _ in range(_ROUNDS):
-        step, noise = _gauss_newton(misfit.left(found), misfit.slopes(found), moved)
-        share = _share(misfit, found, moved, step, noise)
-        if share == 0.0:
+        step, noise = _gauss_newton(place, misfit.slopes(place.drive))
+        reached = _along(step, misfit, place, noise)
+        if reached is None:
             break
-        moved = moved + share * step
-        found = with_values(drive, drive.tuned * np.exp(moved))
-        if np.abs(step).max() < _CONVERGED:
+        gained = 1.0 - reached.objective(noise) / place.objective(noise)
+        place = reached
+        if gained < _CONVERGED:
             break
-    return Step(found, misfit.cost(found))
+    return Step(place.drive, misfit.cost(place.drive))
 
 
-def _gauss_newton(left: FloatArray, slopes: FloatArray, moved: FloatArray) -> tuple[FloatArray, float]:
-    """Give the step in logarithms, at most of length 1, and the weight of what is known before the record."""
-    size = moved.size
-    free, *_ = np.linalg.lstsq(slopes, left, rcond=None)
-    noise = float(np.linalg.norm(left - slopes @ free)) / np.sqrt(max(1, left.size - size)) / _KNOWN_TO
-    held = np.vstack([slopes, noise * np.eye(size)])
-    step, *_ = np.linalg.lstsq(held, np.append(left, -noise * moved), rcond=None)
-    return step / max(1.0, float(np.abs(step).max()) / _LONGEST), noise
+@dataclass(frozen=True, eq=False)
+class _Place:
+    """An estimate, how far it is from the first one in logarithms, and what it leaves unexplained."""
+
+    drive: ElasticDrive
+    moved: FloatArray
+    left: FloatArray
+
+    def objective(self, noise: float) -> float:
+        """Give what is minimised: the squares that are left, and how far the parameters moved."""
+        return float(self.left @ self.left + noise**2 * (self.moved @ self.moved))
 
 
-def _share(misfit: Misfit, found: ElasticDrive, moved: FloatArray, step: FloatArray, noise: float) -> float:
-    """Give the largest share of a step, halved from 1 on, that leaves less than there is; 0 for none."""
-    left = misfit.left(found)
-    before = float(left @ left + noise**2 * (moved @ moved))
+def _gauss_newton(place: _Place, slopes: FloatArray) -> tuple[FloatArray, float]:
+    """Give the step in logarithms, no part of it above 1, and the weight of what is known before."""
+    size = place.moved.size
+    free, *_ = np.linalg.lstsq(slopes, place.left, rcond=None)
+    noise = float(np.linalg.norm(place.left - slopes @ free)) / np.sqrt(max(1, place.left.size - size))
+    weight = noise / _KNOWN_TO
+    held = np.vstack([slopes, weight * np.eye(size)])
+    step, *_ = np.linalg.lstsq(held, np.append(place.left, -weight * place.moved), rcond=None)
+    return step / max(1.0, float(np.abs(step).max()) / _LONGEST), weight
+
+
+def _along(step: FloatArray, misfit: Misfit, place: _Place, noise: float) -> _Place | None:
+    """Go a step, halved until it leaves less than there is; None where no share of it does."""
     for share in 0.5 ** np.arange(_HALVINGS):
         try:
-            left = misfit.left(with_values(found, found.tuned * np.exp(share * step)))
+            drive = with_values(place.drive, place.drive.tuned * np.exp(share * step))
         except PlantError:  # an unstable loop: a shorter step leads to a stable one
             continue
-        there = moved + share * step
-        if float(left @ left + noise**2 * (there @ there)) < before:
-            return float(share)
-    return 0.0
+        reached = _Place(drive, place.moved + share * step, misfit.left(drive))
+        if reached.objective(noise) < place.objective(noise):
+            return reached
+    return None
 
 
 def _filtered(ratio: Ratio, move: MeasuredMove, start: float) -> FloatArray:
