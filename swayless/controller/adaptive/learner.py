@@ -35,13 +35,16 @@ RECENT, SIGNIFICANCE = 7.0 / 8.0, 32.0
 ROUGHNESS = 1e-11
 """Power, by energy, of the rounding in a window that was summed up around coefficients that do not fit."""
 
+LEAST_DEAD_ZONE = 1e-6
+"""Below it the cubes of a window's energy leave the range of float, and noise is no longer told."""
+
 CONVERGED_WITHIN = 0.01
 """A set that changes by no more in a window has converged."""
 
 
 def dead_zone_sum(settings: AdaptiveSettings) -> float:
     """Sum of squares, over a window and the three samples of each tick, of vibration in the dead zone."""
-    return 3.0 * settings.window_ticks * settings.dead_zone_ratio**2
+    return 3.0 * settings.window_ticks * max(settings.dead_zone_ratio, LEAST_DEAD_ZONE) ** 2
 
 
 def first_coefficients(settings: AdaptiveSettings) -> Coefficients:

@@ -42,7 +42,8 @@ class AdaptiveSettings:
     lag_ticks : int
         Ticks that the drive needs to come to rest after its reference, 0 or more: not learned from.
     dead_zone_ratio : float
-        Vibration of at most this rms, relative to `vibration_scale`, is never learned from; 0 to 1.
+        Vibration of at most this rms, relative to `vibration_scale`, is never learned from; 0 to 1. Below
+        1e-6 it counts as 1e-6.
     mode : Mode or None
         The vibration, where it is known: a delay with which it cannot be learned, or would ask for more than
         `max_reference`, is then refused.

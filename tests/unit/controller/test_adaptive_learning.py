@@ -1,5 +1,6 @@
 """What an adaptive shaper learns: in a closed loop with a flexible robot, with and without noise."""
 
+import dataclasses
 import math
 
 import mpmath
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from swayless.controller import number_type
 from swayless.controller.adaptive import AdaptiveStatus
 from swayless.controller.adaptive.information import Information
+from swayless.controller.adaptive.learner import Learner
 from swayless.plant import Mode
 from tests.unit.controller.adaptive_moves import Experiment
 
@@ -133,6 +135,17 @@ def test_pure_noise_teaches_nothing():
     learner = experiment.shaper._learner
     for value in random.standard_normal(80_000).tolist():
         learner.learn(value, *random.standard_normal(2).tolist(), in_use=False)
+    assert learner.is_frozen
+    assert not learner.has_learned
+
+
+@pytest.mark.parametrize("number", ["double", "float"])
+@pytest.mark.parametrize("size", [1e-9, 1e-60])
+def test_noise_too_small_for_the_number_type_teaches_nothing_even_without_a_dead_zone(number, size):
+    settings = dataclasses.replace(Experiment(number=number).settings, dead_zone_ratio=0.0)
+    learner, scalar = Learner(settings), settings.number.scalar
+    for sample in (size * np.random.default_rng(4).standard_normal((2000, 3))).tolist():
+        learner.learn(*map(scalar, sample), in_use=False)
     assert learner.is_frozen
     assert not learner.has_learned
 
