@@ -303,6 +303,8 @@ class ProfileCode:
             f" a stop {self.settings.stop.ticks}.",
             f"References from {low:.6g} to {high:.6g}; a move that could need more is refused.",
             *self.origin.facts,
+            "Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,",
+            "position = start + travel * position of a model of the plant, with travel = target - start.",
             f"Memory: {self.ram_bytes} bytes of state at most, {self.table_bytes} of tables.",
             "",
             "Call it once per tick. The plant rests when a move starts: what swings then swings on.",

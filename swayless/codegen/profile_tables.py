@@ -89,16 +89,28 @@ class ProfileTable:
 
 
 def _lines(rows: Sequence[tuple[str, list[str]]], opening: str, closing: str) -> Iterator[str]:
-    """Break rows of literals into lines; what a row is stands behind its last one."""
-    for place, (text, literals) in enumerate(rows):
-        lines = [""]
-        for literal in literals:
-            if lines[-1] and len(lines[-1]) + len(literal) + 3 > WIDTH:
-                lines.append("")
-            lines[-1] += f"{', ' if lines[-1] else ''}{literal}"
-        yield from (f"{line}," for line in lines[:-1])
-        end = "," if place < len(rows) - 1 else ""
-        yield f"{lines[-1]}{end} {opening} {text} {closing}"
+    """Break rows of literals into lines; what each row is stands behind it, or above where it is too long."""
+    texts = [f"{opening} {text} {closing}" for text, _ in rows]
+    broken = [_broken(literals) for _, literals in rows]
+    broken = [[f"{line}," for line in lines] for lines in broken]
+    broken[-1][-1] = broken[-1][-1].removesuffix(",")
+    behind = [f"{lines[0]} {text}" for lines, text in zip(broken, texts, strict=True)]
+    if all(len(lines) == 1 for lines in broken) and max(map(len, behind)) <= WIDTH:
+        yield from behind
+        return
+    for lines, text in zip(broken, texts, strict=True):
+        yield text
+        yield from lines
+
+
+def _broken(literals: Sequence[str]) -> list[str]:
+    """Put as many literals in each line as fit."""
+    lines = [""]
+    for literal in literals:
+        if lines[-1] and len(lines[-1]) + len(literal) + 3 > WIDTH:
+            lines.append("")
+        lines[-1] += f"{', ' if lines[-1] else ''}{literal}"
+    return lines
 
 
 @dataclass(frozen=True)

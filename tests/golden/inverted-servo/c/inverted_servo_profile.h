@@ -10,6 +10,8 @@
  * 8d3df6f4a19e00a0020c88d11611db4624b6aa1ec29d691df376f11ec6550c0b
  * Proved with these numbers: a move leaves at most 1e-11 of each state's largest,
  * a stop from any tick 1e-12; both keep the limits.
+ * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
+ * position = start + travel * position of a model of the plant, with travel = target - start.
  * Memory: 232 bytes of state at most, 8686 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.

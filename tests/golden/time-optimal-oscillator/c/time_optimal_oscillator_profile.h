@@ -10,6 +10,8 @@
  * 4c47292d03d7cc91023042fb1cd3b3e6ed89dc1f61e19278e0ae72f5e763daaa
  * Proved with these numbers: a move leaves at most 1e-12 of each state's largest,
  * a stop from any tick 1e-12; both keep the limits.
+ * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
+ * position = start + travel * position of a model of the plant, with travel = target - start.
  * Memory: 216 bytes of state at most, 2770 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
