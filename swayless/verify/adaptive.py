@@ -24,8 +24,11 @@ from swayless.verify.stimulus import Stimulus
 from swayless.verify.toolchain import Compiler
 from swayless.verify.verification import Verdict
 
-MOVES = 40
-"""Moves of each stimulus."""
+MOVES, FEWEST_MOVES = 40, 4
+"""Moves of each stimulus: as many as fit into its ticks."""
+
+LONGEST_TICKS = 100_000
+"""Ticks of a stimulus of more than the fewest moves: long delays take long rests."""
 
 NOISE_RATIO = 0.05
 """Measurement noise, relative to the vibration that counts as 1."""
@@ -120,11 +123,12 @@ def adaptive_stimuli(settings: AdaptiveSettings) -> Iterator[Stimulus]:
 def _closed_loop(settings: AdaptiveSettings, noise: float, *, seed: int) -> NDArray[np.void]:
     """Let a robot of 0.4 periods a delay move at random, then with another payload."""
     random = np.random.default_rng(seed)
-    lasts = np.full(MOVES, _move_ticks(settings))
+    moves = _moves(settings)
+    lasts = np.full(moves, _move_ticks(settings))
     too_short = settings.quiet_ticks + settings.window_ticks
     lasts[2::3] = random.integers(1, too_short, lasts[2::3].size)  # windows are put together
     inputs = _blank(settings, int(lasts.sum()))
-    inputs["command"] = np.repeat(random.uniform(-1.0, 1.0, MOVES) * settings.max_command, lasts)
+    inputs["command"] = np.repeat(random.uniform(-1.0, 1.0, moves) * settings.max_command, lasts)
     delay_s = settings.delay_ticks * settings.tick_s
     robot = FlexibleRobot(Mode(0.4 / delay_s, 0.01), settings.tick_s)
     per_speed = settings.vibration_scale * delay_s / (2.5 * settings.max_command)
@@ -147,16 +151,22 @@ def _spoilt(settings: AdaptiveSettings, inputs: NDArray[np.void], *, seed: int) 
     for name in ("command", "vibration"):
         ticks = random.integers(0, inputs.size, 4 * len(odd))
         spoilt[name][ticks] = np.resize(odd, ticks.size)
-    spoilt["enable"] = np.repeat(random.random(MOVES) > 0.2, _move_ticks(settings))[: inputs.size]
+    spoilt["enable"] = np.repeat(random.random(_moves(settings)) > 0.2, _move_ticks(settings))[: inputs.size]
     return spoilt
 
 
 def _noise_alone(settings: AdaptiveSettings, *, seed: int) -> NDArray[np.void]:
     """Hold the command, and let the measurement be anything from tiny noise to more than it may be."""
-    random, inputs = np.random.default_rng(seed), _blank(settings, MOVES * _move_ticks(settings))
-    sizes = np.repeat(np.geomspace(1e-30, 200.0, MOVES), _move_ticks(settings)) * settings.vibration_scale
+    moves, move_ticks = _moves(settings), _move_ticks(settings)
+    random, inputs = np.random.default_rng(seed), _blank(settings, moves * move_ticks)
+    sizes = np.repeat(np.geomspace(1e-30, 200.0, moves), move_ticks) * settings.vibration_scale
     inputs["vibration"] = sizes * random.standard_normal(inputs.size)
     return inputs
+
+
+def _moves(settings: AdaptiveSettings) -> int:
+    """So many moves has a stimulus."""
+    return min(MOVES, max(FEWEST_MOVES, LONGEST_TICKS // _move_ticks(settings)))
 
 
 def _move_ticks(settings: AdaptiveSettings) -> int:

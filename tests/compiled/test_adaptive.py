@@ -15,6 +15,7 @@ from swayless.verify.adaptive import adaptive_stimuli, run_adaptive_reference, v
 PRESENT = [compiler for compiler in COMPILERS if compiler.name == "zig" or compiler.is_installed()]
 
 SMALL = AdaptiveSettings(3, 0.004, 0.7, 25.0, 200, max_reference=2.1, lag_ticks=2)
+SMALLEST = AdaptiveSettings(1, 0.01, 5.0, 0.01, 1, max_reference=40.0, dead_zone_ratio=0.0)
 ROBOT = AdaptiveSettings(25, 0.001, 1.0, 100.0, 4000)
 
 
@@ -37,7 +38,7 @@ def test_every_bit_of_every_output_is_the_reference_s(settings, moves, number, m
 @pytest.mark.parametrize("compiler", PRESENT, ids=lambda compiler: compiler.name)
 def test_every_compiler_accepts_the_code_without_a_warning(compiler, monkeypatch):
     monkeypatch.setattr(adaptive, "MOVES", 4)
-    model = model_of(SMALL, "float")
+    model = model_of(SMALLEST, "float")
     verdicts = verify_adaptive(model, c_files=generate_adaptive(model, "c"), compiler=compiler)
     assert all(each.comparison.is_equal for each in verdicts)
 

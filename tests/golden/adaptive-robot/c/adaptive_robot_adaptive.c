@@ -367,7 +367,7 @@ static void adaptive_robot_read_command(adaptive_robot_adaptive_t *s, adaptive_r
     if ((command <= s->command) && (command >= s->command)) {
         s->rest_ticks += (s->rest_ticks < 50u) ? 1u : 0u;
         s->quiet_ticks += (s->quiet_ticks < 101u) ? 1u : 0u;
-        s->moved_ticks += ((s->moved_ticks > 0u) && (s->moved_ticks < 4000u)) ? 1u : 0u;
+        s->moved_ticks += ((s->moved_ticks > 0u) && (s->moved_ticks != 4000u)) ? 1u : 0u;
     } else {
         s->rest_ticks = 0u;
         s->quiet_ticks = 0u;
