@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from swayless.cli.verify import CodeFiles
+    from swayless.codegen import GeneratedFile
     from swayless.verify import Compiler, Verdict
 
 LANGUAGES = ("c", "st")
@@ -54,7 +55,7 @@ class Block(NamedTuple):
 
     name: str
     stored: tuple[str, str]
-    generate: Callable[[str], tuple[Any, ...]]
+    generate: Callable[[str], tuple[GeneratedFile, ...]]
     prove: Callable[[CodeFiles, Proving], Iterator[Verdict]]
     figures: Mapping[str, Callable[[], Figure]] = {}
     facts: Mapping[str, Any] = {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from swayless.codegen.profile_pins import INPUTS, OUTPUTS
@@ -19,6 +20,9 @@ from swayless.controller.profile import (
     StopLaw,
     explain_profile,
 )
+from swayless.machine.profile_file import load_profile
+from swayless.machine.profile_plant import load_below_trolley
+from swayless.plant import Mode, pendulum_frequency_hz
 
 PAGE = (Path(__file__).parents[2] / "docs" / "profile-block.md").read_text(encoding="utf-8")
 MASS = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
@@ -66,3 +70,13 @@ def test_the_pin_table_is_that_of_the_generators():
 
 def test_the_status_table_is_that_of_the_controller():
     assert cells("value") == [[str(bit.value), bit.name, explain_profile(bit)] for bit in ProfileStatus]
+
+
+def test_the_crane_of_the_page_is_the_load_below_a_trolley_and_moves(tmp_path):
+    (text,) = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    (tmp_path / "crane.toml").write_text(text)
+    task = load_profile(tmp_path / "crane.toml", {}).task
+    load = load_below_trolley(Mode(pendulum_frequency_hz(6.0)))
+    # To the 13 digits that the page shows.
+    np.testing.assert_allclose(np.poly(task.plant.a), np.poly(load.a), rtol=1e-12, atol=1e-12)
+    assert task.plant.equilibrium(12.0)[1] == 0.0
