@@ -8,7 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from swayless.cli.console import counted, per_cent, print_line, print_table, rounded_down
-from swayless.design.optimal import OptimalCommand, output_at_ticks
+from swayless.design.optimal import Command, LinearPlant, OptimalCommand, output_at_ticks
+from swayless.design.optimal.linear_plant import shown
 from swayless.design.optimal.sensitivity import mode_of, swing_left
 from swayless.machine.profile_file import ProfileRequest
 
@@ -44,18 +45,24 @@ def document(request: ProfileRequest, found: OptimalCommand) -> dict[str, Any]:
         "fewer_utilisation_ratio": _finite(found.fewer_utilisation_ratio),
         "final_error_ratio": found.final_error_ratio,
         "reference": output.tolist(),
-        "left": [
-            {
-                "frequency_hz": mode_of(complex(pole)).frequency_hz,
-                "damping_ratio": mode_of(complex(pole)).damping_ratio,
-                "at_ratio": list(CURVE),
-                "amplitude": left.tolist(),
-            }
-            for pole, left in zip(
-                task.plant.ringing_poles_rad_s, swing_left(task.plant, command, CURVE), strict=True
-            )
-        ],
+        "left": _left_document(task.plant, command),
     }
+
+
+def _left_document(plant: LinearPlant, command: Command) -> list[dict[str, Any]]:
+    """Give a sensitivity curve of each mode; none where modes cannot be told apart."""
+    if not plant.can_be_off:
+        return []
+    modes = [mode_of(complex(pole)) for pole in plant.ringing_poles_rad_s]
+    return [
+        {
+            "frequency_hz": mode.frequency_hz,
+            "damping_ratio": mode.damping_ratio,
+            "at_ratio": list(CURVE),
+            "amplitude": left.tolist(),
+        }
+        for mode, left in zip(modes, swing_left(plant, command, CURVE), strict=True)
+    ]
 
 
 def _finite(ratio: float | None) -> float | None:
@@ -96,6 +103,9 @@ def print_found(request: ProfileRequest, found: OptimalCommand) -> None:
     if modes:
         heads = ("mode [Hz]", *(f"at {100 * ratio:g} %" for ratio in OFF))
         print_table("left swinging at the end, where the frequency is off", heads, modes)
+    merged = task.plant.merged_pole_rad_s
+    if merged is not None:
+        print_line(f"note: two modes at {shown(merged)} rad/s are one: none can be off on its own")
     if found.fewer_utilisation_ratio is not None:
         print_line(_proof(found.ticks - 1, found.fewer_utilisation_ratio))
     else:
@@ -106,6 +116,8 @@ def print_found(request: ProfileRequest, found: OptimalCommand) -> None:
 def _left_rows(request: ProfileRequest, found: OptimalCommand) -> list[tuple[str, ...]]:
     """Say what each mode leaves at each frequency, in units of the output."""
     plant = request.task.plant
+    if not plant.can_be_off:
+        return []
     lefts = swing_left(plant, found.command, OFF)
     frequencies = [mode_of(complex(pole)).frequency_hz for pole in plant.ringing_poles_rad_s]
     return [

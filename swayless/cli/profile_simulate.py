@@ -134,10 +134,9 @@ def _actual(plant: LinearPlant, ratios: tuple[float, ...] | None) -> list[float]
     """Give the frequencies to play at, the nominal ones among them."""
     from swayless.cli.options import OptionError
 
-    rings = plant.ringing_poles_rad_s.size > 0
-    if ratios is not None and not rings:
+    if ratios is not None and plant.ringing_poles_rad_s.size == 0:
         raise OptionError(["--off: nothing rings in this plant: no frequency can be off; leave it out"])
-    return sorted({1.0, *(ratios or (USUAL_OFF if rings else ()))})
+    return sorted({1.0, *(ratios or (USUAL_OFF if plant.can_be_off else ()))})
 
 
 def _move(file: Path, options: Mapping[str, str], axis: str | None) -> Move:

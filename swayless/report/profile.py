@@ -128,7 +128,7 @@ def move_figure(move: PlottedMove) -> Figure:
     >>> [axes.get_ylabel() for axes in figure.axes]
     ['Input', 'Output', 'Left (% of the move)']
     """
-    rings = move.plant.ringing_poles_rad_s.size > 0
+    rings = move.plant.can_be_off
     with figure_style():
         figure, panels = new_figure(move.title, (2.1, 2.6, 2.6) if rings else (2.1, 2.6))
         inputs, outputs = panels[:2]
@@ -204,7 +204,7 @@ def _draw_limits(axes: Axes, move: PlottedMove) -> None:
 
 def _draw_outputs(axes: Axes, move: PlottedMove) -> None:
     """Draw the output of the nominal plant, and of plants whose frequencies are off."""
-    ratios = OFF if move.plant.ringing_poles_rad_s.size else ()
+    ratios = OFF if move.plant.can_be_off else ()
     for index, ratio in enumerate((1.0, *ratios)):
         times_s, output = move.outputs(detuned(move.plant, ratio))
         name = "output" if ratio == 1.0 else f"frequencies at {100.0 * ratio:g} %"

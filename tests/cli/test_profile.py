@@ -329,3 +329,22 @@ def test_an_inverted_move_is_simulated_too(run):
     done = run("profile", "simulate", servo, "--limit", "5", "--axis", "x")
     assert (done.code, done.out, len(done.err.splitlines())) == (2, "", 2)
     assert "--limit: belongs to the fastest move" in done.err
+
+
+def test_modes_that_are_one_move_together_and_none_is_said_to_be_off(run, tmp_path):
+    options = (
+        "--numerator",
+        "1",
+        "--denominator",
+        "1 0 2 0 1",
+        "--limit",
+        "5",
+        "--tick",
+        "50 ms",
+        "--target",
+        "1",
+    )
+    done = run("profile", "optimal", *options, "-o", "both.svg")
+    assert (done.code, done.err) == (0, "")
+    assert "note: two modes at 1j rad/s are one: none can be off on its own\n" in done.out
+    assert found(run("profile", "optimal", *options, "--json"))["left"] == []

@@ -42,6 +42,8 @@ def detuned(plant: LinearPlant, frequency_ratio: float) -> LinearPlant:
     """
     if not (math.isfinite(frequency_ratio) and frequency_ratio > 0.0):
         raise DesignError(f"frequency_ratio = {frequency_ratio!r}: must be finite and > 0")
+    if frequency_ratio == 1.0:
+        return plant
     check_apart(plant)
     plant = plant.balanced
     above = plant.ringing_poles_rad_s

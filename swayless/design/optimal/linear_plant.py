@@ -171,6 +171,11 @@ class LinearPlant:
         return np.sort_complex(poles[rings])
 
     @property
+    def can_be_off(self) -> bool:
+        """Whether there are modes whose frequencies can be off, each on its own."""
+        return self.ringing_poles_rad_s.size > 0 and self.merged_pole_rad_s is None
+
+    @property
     def merged_pole_rad_s(self) -> complex | None:
         """A ringing pole that cannot be told apart from another one; None where there is none."""
         poles = self.ringing_poles_rad_s
@@ -293,9 +298,11 @@ def shown(pole: complex) -> str:
 
     Examples
     --------
-    >>> shown(2.0 + 0.0j), shown(-0.1 + 3.0j)
-    ('2', '-0.1+3j')
+    >>> shown(2.0 + 0.0j), shown(-0.1 + 3.0j), shown(-1e-15 + 3.0j)
+    ('2', '-0.1+3j', '3j')
     """
+    if abs(pole.real) <= _LOST * abs(pole) and pole.imag != 0.0:
+        return f"{pole.imag:.6g}j"
     return f"{pole.real:.6g}" if pole.imag == 0.0 else f"{pole.real:.6g}{pole.imag:+.6g}j"
 
 

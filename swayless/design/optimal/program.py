@@ -80,6 +80,13 @@ class Program:
         """Half of what the input's limits are apart."""
         return 0.5 * (self.task.limits[1] - self.task.limits[0])
 
+    @property
+    def reach(self) -> float:
+        """How far w can get from 0, by the limits of the input and of its rate."""
+        rate = self.task.rate_limit_per_s
+        steps = np.inf if rate is None else (self.ticks + 1) * rate * self.task.tick_s
+        return float(min(self.half, abs(self.centre) + steps))
+
     @cached_property
     def orthonormal(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """The conditions as rows at right angles (k, n), their values (k,), and what leads there (k, r)."""
@@ -228,16 +235,18 @@ def least_utilisation(program: Program) -> LeastUtilisation:
         return impossible
     (equal, values), (form, centres, halves) = program.equalities, program.limited
     ends, limits, count = values.size, halves.size, equal.shape[1]
-    # In units of the limits, and s in units that make its column 1 at most: the solver's tolerances are
-    # absolute. Equalities first, then K v - t - s f = 0 with bounds on t: its duals price the limits.
-    column = np.concatenate([-values / program.half, -centres / halves])[:, np.newaxis]
+    # In units of the limits, v in units of what it can reach, and s in units that make its column 1 at most:
+    # the solver's tolerances are absolute. Equalities first, then K v - t - s f = 0 with bounds on t: its
+    # duals price the limits.
+    reach = program.reach
+    column = np.concatenate([-values / reach, -centres / halves])[:, np.newaxis]
     unit = 1.0 / max(1.0, float(np.abs(column).max()))
-    both: Any = [equal, sparse.diags_array(program.half / halves) @ form]
+    both: Any = [equal, sparse.diags_array(reach / halves) @ form]
     apart: Any = [sparse.csr_array((ends, limits)), -sparse.eye_array(limits)]
     columns: Any = [sparse.vstack(both), sparse.vstack(apart), column * unit]
     table: Any = sparse.hstack(columns, format="csr")
     half = np.ones(count + limits)
-    half[program.ticks : count] = np.inf
+    half[: program.ticks], half[program.ticks : count] = program.half / reach, np.inf
     bounds: Any = np.vstack([np.column_stack([-half, half]), [[0.0, np.inf]]])
     solved = linprog(
         np.append(np.zeros(count + limits), -1.0),
@@ -248,8 +257,8 @@ def least_utilisation(program: Program) -> LeastUtilisation:
     )
     if solved.status != 0 or solved.x is None:
         raise DesignError(f"linear program of {program.ticks} ticks: {solved.message}")
-    prices = np.append(solved.eqlin.marginals[:ends], solved.eqlin.marginals[ends:] * program.half / halves)
-    scale = float(solved.x[-1]) * unit / program.half
+    prices = np.append(solved.eqlin.marginals[:ends], solved.eqlin.marginals[ends:] * reach / halves)
+    scale = float(solved.x[-1]) * unit / reach
     v = solved.x[:count] / scale if scale > 0.0 else np.zeros(count)
     w = v[: program.ticks]
     return LeastUtilisation(

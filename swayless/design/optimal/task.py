@@ -81,6 +81,17 @@ class MoveTask:
                     f" {low:g} to {high:g}: out of reach"
                 )
 
+        self._check_rate()
+
+    def _check_rate(self) -> None:
+        """Refuse a rate at which the input alone takes longer than any command."""
+        rate, change = self.rate_limit_per_s, abs(self.held_input - self.initial_input)
+        if rate is not None and change > rate * self.tick_s * (LARGEST_TICKS + 1):
+            raise DesignError(
+                f"rate_limit = {rate:g}: the input takes {change / rate:.6g} s from {self.initial_input:g} to"
+                f" {self.held_input:g}: must take up to {LARGEST_TICKS} ticks of {self.tick_s:g} s"
+            )
+
     @cached_property
     def initial_input(self) -> float:
         """Input under which the plant rests at the start."""

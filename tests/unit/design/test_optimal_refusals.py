@@ -54,6 +54,14 @@ CASES = {
         lambda: time_optimal(task(LAG, target=5.0)),
         "the target needs all of the limit, 5",
     ),
+    "rate that never gets there": (
+        lambda: task(rate_limit_per_s=1e-9),
+        "rate_limit = 1e-09: the input takes 1e+09 s from 0 to 1: must take up to 20000 ticks of 0.01 s",
+    ),
+    "rate that does not get there in time": (
+        lambda: least_energy(task(rate_limit_per_s=1e-2), 10),
+        "10 ticks of 0.01 s: any command takes 24032.5 times",
+    ),
     "half a period a tick": (
         lambda: time_optimal(task(tick_s=math.pi / 10.0)),
         "from tick to tick the input does not move the pole",
