@@ -22,6 +22,7 @@ from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 
 _BLOCK = 1 << 22  # inputs of stops that are held in memory at once
+_ROUNDING = 1e-12  # of a share: sums over other columns may add up in another order
 _WITNESSES = 256  # aborts by which lengths are rejected, before all aborts are tried
 
 
@@ -97,7 +98,7 @@ def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> 
     tried = np.unique(np.linspace(0, known.shape[1] - 1, _WITNESSES).astype(np.int64))
     while True:
         stop = _shortest(model, known[:, tried], limits)
-        broken = _broken(stop, known, model, limits)
+        broken = _broken(stop, known, model, limits, allowed=1.0 + _ROUNDING)
         if broken is None:
             return stop
         tried = np.append(tried, broken)
@@ -144,7 +145,7 @@ def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
     ----------
     Nocedal and Wright (2006), "Numerical optimization", section 16.2: the Schur-complement method.
     """
-    from scipy.linalg import cholesky, qr, solve_triangular, solveh_banded
+    from scipy.linalg import cholesky, qr, solveh_banded
 
     held, last = model.hold_ratio, np.eye(model.order + 1)[-1]
     width, changed = (limits.high - limits.low) ** -2.0, limits.change**-2.0
@@ -158,17 +159,19 @@ def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
     moved = np.column_stack([-model.kept @ np.linalg.matrix_power(model.system.a, ticks), -through @ itself])
     per_rest = through @ (held * (1.0 - itself)) - model.final
     # Both sides in the metric of the least sum of squares, so that the best q is a projection.
-    whole = solve_triangular(triangle, np.column_stack([moved, per_rest]), trans="T")
-    wanted = solve_triangular(half, whole, lower=True)
+    whole = np.linalg.solve(triangle.T, np.column_stack([moved, per_rest]))
+    wanted = np.linalg.solve(half, whole)
     wanted, per_rest = wanted[:, :-1], wanted[:, -1]
     rest = per_rest @ wanted / (per_rest @ per_rest)
-    prices = solve_triangular(half, wanted - np.outer(per_rest, rest), lower=True, trans="T")
+    prices = np.linalg.solve(half.T, wanted - np.outer(per_rest, rest))
     return Stop(held * rest + np.outer(itself, last - held * rest) + added @ prices, rest)
 
 
-def _broken(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> int | None:
-    """Give the abort that breaks a limit most; None if none does."""
-    worst, broken = 1.0, None
+def _broken(
+    stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits, allowed: float = 1.0
+) -> int | None:
+    """Give the abort that breaks a limit most; None if none takes more than the share allowed."""
+    worst, broken = allowed, None
     for begin, end in blocks(known.shape[1], len(stop.gains)):
         shares = _shares(stop, known[:, begin:end], model, limits)
         most = int(np.nan_to_num(shares, nan=np.inf).argmax())

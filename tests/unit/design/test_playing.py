@@ -1,0 +1,171 @@
+"""The plant from tick to tick, and stops: against their definitions, solved another way."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from swayless.design.optimal import Command, LinearPlant, Robustness, transform_derivatives
+from swayless.design.optimal.robustification import rest_conditions
+from swayless.design.playing import ShapeLimits, final_error_ratio, shape_model, shortest_stop
+from swayless.errors import DesignError
+
+OSCILLATOR = LinearPlant.from_transfer_function([1.0], [0.01, 0.004, 1.0])
+ON_A_BODY = LinearPlant.from_transfer_function([1.0], [0.01, 0.002, 1.0, 0.0, 0.0])
+MASS = LinearPlant([[0.0, 1.0], [0.0, 0.0]], [0.0, 1.0], [1.0, 0.0])
+TICK_S = 0.02
+
+MODELS = [
+    (OSCILLATOR, Robustness()),
+    (OSCILLATOR, Robustness(order=2)),
+    (OSCILLATOR, Robustness(split_ratio=0.1)),
+    (ON_A_BODY, Robustness(order=1)),
+    (ON_A_BODY, Robustness(split_ratio=0.2)),
+    (MASS, Robustness()),
+]
+
+
+def smallest_shape(model, ticks):
+    """The move by 1 whose sum of squares is least."""
+    return np.linalg.lstsq(model.kept @ model.system.reach(ticks), model.final, rcond=None)[0]
+
+
+@pytest.mark.parametrize(("plant", "robustness"), MODELS)
+def test_a_shape_that_rests_in_this_model_rests_by_the_conditions_of_the_design(plant, robustness):
+    model = shape_model(plant, TICK_S, robustness=robustness)
+    shape = smallest_shape(model, 90)
+    rest = rest_conditions(plant, TICK_S, 1.0, robustness)
+    # The shape itself solves to some 1e-13; chains of three links lose two digits.
+    assert rest.rows(90) @ shape == pytest.approx(rest.final, abs=1e-10 * np.abs(rest.final).max())
+    assert model.final.size == rest.final.size
+
+
+def test_the_model_has_each_state_once():
+    sizes = [shape_model(plant, TICK_S, robustness=asked).order for plant, asked in MODELS]
+    assert sizes == [2, 6, 6, 6, 8, 2]
+
+
+@pytest.mark.parametrize(("plant", "robustness"), MODELS)
+def test_under_a_first_order_hold_states_are_those_of_straight_lines(plant, robustness):
+    model = shape_model(plant, TICK_S, "first-order", robustness)
+    shape = np.array([0.3, -0.2, 0.5, 0.1])
+    states = model.states(shape)
+    # By the exponential of state, input and slope; the drive comes from 0 in the tick before.
+    order = plant.order
+    block = np.zeros((order + 2, order + 2))
+    block[:order, :order], block[:order, order], block[order, order + 1] = plant.a, plant.b, 1.0
+    exact, state, before, positions = expm(block * TICK_S), np.zeros(order), 0.0, []
+    for value in shape:
+        state = (exact @ np.array([*state, before, (value - before) / TICK_S]))[:order]
+        before = value
+        positions.append(plant.c @ state + plant.d * value)
+    ours = states[:-1] @ model.output + model.feedthrough * shape
+    assert ours == pytest.approx(positions, abs=1e-14)
+
+
+@pytest.mark.parametrize("hold", ["zero-order", "first-order"])
+@pytest.mark.parametrize(("plant", "robustness"), MODELS)
+def test_under_its_own_input_a_plant_at_rest_stays(plant, robustness, hold):
+    model = shape_model(plant, TICK_S, hold, robustness)
+    shape = np.append(smallest_shape(model, 90), np.full(200, model.hold_ratio))
+    # 200 ticks later nothing has moved: of the states, which are of order 1 to 10, rounding is left.
+    assert final_error_ratio(model, shape) < 1e-11
+    states = model.states(shape) @ model.kept.T
+    assert states[90] == pytest.approx(states[-1], abs=1e-9)
+
+
+def by_definition(model, limits, ticks, known):
+    """The stop of a length from dense equations of prices, and its rest from three points of its cost."""
+    held, order = model.hold_ratio, model.order
+    width, change = limits.high - limits.low, limits.change
+    through = model.kept @ model.system.reach(ticks)
+    moved = model.kept @ np.linalg.matrix_power(model.system.a, ticks) @ known[:order]
+    steps = np.eye(ticks + 1, ticks) - np.eye(ticks + 1, ticks, k=-1)
+    cost = np.eye(ticks) / width**2 + steps.T @ steps / change**2
+    # How the input returns by itself does not depend on the state; what is added does, and on the rest.
+    itself = np.linalg.solve(cost, np.eye(ticks)[0] / change**2)
+
+    def added(rest):
+        inputs = held * rest + (known[-1] - held * rest) * itself
+        missing = model.final * rest - moved - through @ inputs
+        prices = np.linalg.solve(through @ np.linalg.solve(cost, through.T), missing)
+        more = np.linalg.solve(cost, through.T @ prices)
+        return inputs + more, float(more @ cost @ more)
+
+    # The cost is a parabola in the position of rest: three points give its vertex.
+    low, middle, high = (added(rest)[1] for rest in (-1.0, 0.0, 1.0))
+    rest = 0.5 * (low - high) / (low - 2.0 * middle + high)
+    return added(rest)[0], rest
+
+
+@pytest.mark.parametrize("change", [np.inf, 0.3])
+@pytest.mark.parametrize(("plant", "robustness"), MODELS)
+def test_a_stop_is_the_least_of_its_length_by_definition(plant, robustness, change):
+    model = shape_model(plant, TICK_S, robustness=robustness)
+    shape = smallest_shape(model, 60)
+    most = 3.0 * max(model.hold_ratio, np.abs(shape).max())
+    limits = ShapeLimits(-most, most, change * most)
+    stop = shortest_stop(model, shape, limits)
+    for tick in (1, 20, 59):
+        known = np.append(model.states(shape)[tick], shape[tick - 1])
+        inputs, rest = by_definition(model, limits, len(stop.gains), known)
+        # Dense equations in chains of three links are good to some eight digits.
+        assert stop.gains @ known == pytest.approx(inputs, abs=1e-7 * most)
+        assert stop.rest @ known == pytest.approx(rest, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("plant", "robustness"), [(OSCILLATOR, Robustness(order=2)), (ON_A_BODY, Robustness(1))]
+)
+def test_a_move_and_its_stop_are_together_as_robust_as_the_move(plant, robustness):
+    model = shape_model(plant, TICK_S, robustness=robustness)
+    shape = smallest_shape(model, 60)
+    most = 3.0 * np.abs(shape).max()
+    stop = shortest_stop(model, shape, ShapeLimits(-most, most))
+    pole = complex(plant.ringing_poles_rad_s[0])
+    for tick in (1, 25, 59):
+        known = np.append(model.states(shape)[tick], shape[tick - 1])
+        inputs = np.append(shape[:tick], stop.gains @ known)
+        whole = Command(TICK_S, inputs, model.hold_ratio * float(stop.rest @ known))
+        derivatives = transform_derivatives(whole, pole, robustness.order)
+        # Of inputs of this size, weighted by (|p| t)^order.
+        scale = most * (abs(pole) * whole.duration_s) ** np.arange(robustness.order + 1)
+        assert (np.abs(derivatives) < 1e-10 * scale).all()
+
+
+def shares(inputs, known, limits):
+    """What stops of a mass take of the limits, the steps at both ends included."""
+    changes = np.abs(np.diff(np.vstack([known[-1], inputs, 0.0 * known[-1]]), axis=0))
+    return max(np.abs(inputs).max() / limits.high, changes.max() / limits.change)
+
+
+@pytest.mark.parametrize("change", [np.inf, 0.1])
+def test_every_stop_keeps_the_limits_and_a_tick_less_would_not(change):
+    model = shape_model(MASS, TICK_S)
+    shape = np.repeat([1.0, -1.0], 20)
+    limits = ShapeLimits(-1.0, 1.0, change)
+    stop = shortest_stop(model, shape, limits)
+    known = np.vstack([model.states(shape)[1:-1].T, shape[:-1]])
+    assert shares(stop.of(known), known, limits) <= 1.0
+    shorter = [by_definition(model, limits, len(stop.gains) - 1, column)[0] for column in known.T]
+    assert shares(np.array(shorter).T, known, limits) > 1.0
+
+
+def test_a_mass_at_full_speed_is_braked_evenly():
+    model = shape_model(MASS, TICK_S)
+    shape = np.repeat([1.0, -1.0], 40)
+    stop = shortest_stop(model, shape, ShapeLimits(-1.0, 1.0))
+    inputs = stop.gains @ np.append(model.states(shape)[40], 1.0)
+    assert np.ptp(inputs) < 1e-12  # constant deceleration has the least sum of squares
+    assert len(inputs) in {40, 41}  # 40 ticks at the limit itself, where rounding decides
+
+
+def test_a_stop_without_room_is_refused():
+    model = shape_model(LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0]), TICK_S)
+    shape = np.array([3.0, 3.0, 3.0])
+    with pytest.raises(DesignError, match="stop: none of up to 20000 ticks keeps the limits"):
+        shortest_stop(model, shape, ShapeLimits(-1e-5, 1e-5))
+
+
+def test_what_robustness_cannot_be_against_is_refused():
+    with pytest.raises(DesignError, match="nothing rings in this plant"):
+        shape_model(MASS, TICK_S, robustness=Robustness(order=1))
