@@ -9,11 +9,14 @@ from swayless.design.optimal.program import Program
 
 TWO_MASSES = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0, 0.0, 0.0])
 OSCILLATOR = LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0])
+TWO_MODES = LinearPlant.from_transfer_function(
+    [1.0], np.polymul([0.01, 0.002, 1.0], np.polymul([1.0 / 900.0, 0.001, 1.0], [1.0, 0.0, 0.0]))
+)
 TARGETS = {200: "0.5 s", 2000: "20 s"}
 
 
 def report() -> list[str]:
-    """Time moves of about 200 and 2000 ticks: fastest, with a rate limit, smooth, along a trajectory."""
+    """Time moves of about 200 and 2000 ticks: fastest, with a rate limit, of two modes, smooth, tracking."""
     return [text for ticks in TARGETS for text in _of(ticks)]
 
 
@@ -22,13 +25,16 @@ def _of(ticks: int) -> list[str]:
     limited = MoveTask(
         TWO_MASSES, 2.3 / ticks, (-1.0, 1.0), 1.0, rate_limit_per_s=20.0, robustness=Robustness(1)
     )
+    hard = MoveTask(TWO_MODES, 2.4 / ticks, (-1.0, 1.0), 1.0, rate_limit_per_s=20.0, robustness=Robustness(2))
     along = MoveTask(OSCILLATOR, 2.0 / ticks, (-5.0, 5.0), 1.0, robustness=Robustness(1))
     k = np.arange(1, ticks + 1) / ticks
     wanted = 10.0 * k**3 - 15.0 * k**4 + 6.0 * k**5
-    found, slower = time_optimal(fast), time_optimal(limited)
+    found, slower, hardest = time_optimal(fast), time_optimal(limited), time_optimal(hard)
     works = {
         f"fastest, {found.ticks} ticks": lambda: time_optimal(fast),
         f"fastest with a rate limit, {slower.ticks} ticks": lambda: time_optimal(limited),
+        f"two modes, rate limit, 2nd order, {hardest.ticks} ticks": lambda: time_optimal(hard),
+        f"the same, least energy, {2 * ticks} ticks": lambda: least_energy(hard, 2 * ticks),
         f"least energy, {ticks + ticks // 2} ticks": lambda: least_energy(fast, ticks + ticks // 2),
         f"along a trajectory, {ticks} ticks": lambda: track(along, wanted, 0.02),
     }
