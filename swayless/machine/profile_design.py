@@ -26,7 +26,7 @@ class ProfileGuarantee:
     final_error_ratio : float
         How far the states may be from rest at the end of the move, each of its largest in the move.
     stop_error_ratio : float
-        The same, after a stop from any tick.
+        The same, after a stop from any tick; 0 where there are no stops.
     """
 
     final_error_ratio: float
@@ -72,9 +72,12 @@ class ProfileDesign:
 
     @property
     def stop_bytes(self) -> tuple[int, int]:
-        """Size of the gains of the stop: plain, and as they are."""
-        pieces, number = self.settings.stop.pieces, self.settings.number
-        return raw_pieces(pieces.values(number)).stored_bytes(number), pieces.stored_bytes(number)
+        """Size of the gains of the stop: plain, and as they are; 0 where no stop is needed."""
+        stop, number = self.settings.stop, self.settings.number
+        if stop is None:
+            return 0, 0
+        plain = raw_pieces(stop.pieces.values(number))
+        return plain.stored_bytes(number), stop.pieces.stored_bytes(number)
 
 
 def make_profile_design(name: str, source: str, move: ProfileMove, number: str = "double") -> ProfileDesign:
@@ -93,7 +96,7 @@ def make_profile_design(name: str, source: str, move: ProfileMove, number: str =
     Raises
     ------
     DesignError
-        If the command does not rest, or no stop keeps the limits; the message names the cause.
+        If the command does not rest, or rounding exceeds a limit; the message names the cause.
     ControllerError
         If there is no such number type, or the block cannot hold a value.
 
@@ -105,10 +108,13 @@ def make_profile_design(name: str, source: str, move: ProfileMove, number: str =
     >>> made = make_profile_design(
     ...     "mass", "mass.toml", ProfileMove(mass, command, (-1.5, 1.5), start=0.0, target=1.0)
     ... )
-    >>> made.settings.stop.ticks, made.guarantee.final_error_ratio, made.table_bytes
+    >>> made.settings.rest_ticks, made.guarantee.final_error_ratio, made.table_bytes
     (2, 1e-12, (32, 20))
     """
     stored = move.as_stored()
     settings, proof = settings_for(NumberedMove(stored, number_type(number)))
-    guarantee = ProfileGuarantee(promised(proof.final_error_ratio), promised(proof.stop_error_ratio))
+    guarantee = ProfileGuarantee(
+        promised(proof.final_error_ratio),
+        0.0 if settings.stop is None else promised(proof.stop_error_ratio),
+    )
     return ProfileDesign(name, source, f"swayless {swayless.__version__}", stored, settings, guarantee)

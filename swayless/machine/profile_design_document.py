@@ -56,7 +56,9 @@ def record_of(design: ProfileDesign) -> ProfileRecord:
         ExtremesRecord(settings.extremes.shape, settings.extremes.rest),
         TableRecord(_nested(settings.pieces.lengths), _nested(settings.pieces.coefficients)),
         ModelRecord(_nested(model.change), _nested(model.input), _nested(model.output), model.feedthrough),
-        StopRecord(_nested(stop.pieces.lengths), _nested(stop.pieces.coefficients), _nested(stop.rest)),
+        None
+        if stop is None
+        else StopRecord(_nested(stop.pieces.lengths), _nested(stop.pieces.coefficients), _nested(stop.rest)),
     )
 
 
@@ -101,12 +103,8 @@ def _settings(record: ProfileRecord, place: Place, move: ProfileMove | None) -> 
             _array(model.change), _array(model.input), _array(model.output), model.feedthrough
         ),
     )
-    law = _made(
-        place,
-        "stop",
-        lambda: StopLaw(Pieces(_array(stop.lengths), _array(stop.coefficients)), _array(stop.rest)),
-    )
-    if pieces is None or made_model is None or law is None or move is None:
+    law = None if stop is None else _made(place, "stop", lambda: _stop_law(stop))
+    if pieces is None or made_model is None or (law is None and stop is not None) or move is None:
         return None
     numbered = NumberedMove(move, number_type(record.number))
     extremes = Extremes(_pair(record.extremes.shape), _pair(record.extremes.rest))
@@ -126,6 +124,10 @@ def _settings(record: ProfileRecord, place: Place, move: ProfileMove | None) -> 
             numbered.number,
         ),
     )
+
+
+def _stop_law(stop: StopRecord) -> StopLaw:
+    return StopLaw(Pieces(_array(stop.lengths), _array(stop.coefficients)), _array(stop.rest))
 
 
 def _made(place: Place, key: str, make: Callable[[], T]) -> T | None:

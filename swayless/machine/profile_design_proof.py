@@ -19,7 +19,7 @@ from swayless.controller.profile import (
     played_stops,
 )
 from swayless.controller.profile.compression import TOLERANCE_RATIO
-from swayless.design.playing import error_after_stops, final_error_ratio, largest_step
+from swayless.design.playing import error_after_stops, final_error_ratio, largest_step, stops_needed
 from swayless.design.playing.stopping import blocks
 from swayless.machine.profile_design_numbers import NumberedMove
 
@@ -41,7 +41,7 @@ class ProfileProof:
     final_error_ratio : float
         How far the states are from rest after the move, each of its largest in the move.
     stop_error_ratio : float
-        The same, after the worst of the stops from every tick.
+        The same, after the worst of all stops; 0 where there are none.
     largest_step : float
         Largest change of the input from tick to tick, of a move by 1.
     largest_shape : float
@@ -94,14 +94,16 @@ def proved_table(numbered: NumberedMove, pieces: Pieces) -> ProfileProof:
     )
 
 
-def proved(numbered: NumberedMove, pieces: Pieces, model: ProfileModel, stop: StopLaw) -> ProfileProof:
-    """Play the table, and every stop from every tick."""
+def proved(numbered: NumberedMove, pieces: Pieces, model: ProfileModel, stop: StopLaw | None) -> ProfileProof:
+    """Play the table, and the stop from every tick from which one plays."""
     table = proved_table(numbered, pieces)
+    if stop is None:
+        return table
     move = played_move(pieces, model, numbered.number)
     felt = numbered.felt(move.shape)
     states, sizes = numbered.model.states(felt)[1:-1], numbered.model.sizes(felt)
     extremes, error, step = table.extremes, 0.0, table.largest_step
-    for begin, end in blocks(len(states), stop.ticks):
+    for begin, end in blocks(stops_needed(len(felt), stop.ticks), stop.ticks):
         part = slice(begin, end)
         stops = played_stops(stop, move.aborts[part], numbered.number)
         extremes = extremes.with_those_of(stops.extremes)

@@ -72,7 +72,7 @@ class ModelRecord(Record):
 
 @dataclass(frozen=True)
 class StopRecord(Record):
-    """Pieces of the gains after an abort."""
+    """Pieces of the gains after an abort; null where the move goes on to its end."""
 
     lengths: Annotated[tuple[int, ...], _LENGTHS]
     coefficients: Annotated[
@@ -122,4 +122,4 @@ class ProfileRecord(Record):
     extremes: Annotated[ExtremesRecord, one(ExtremesRecord)]
     table: Annotated[TableRecord, one(TableRecord)]
     model: Annotated[ModelRecord, one(ModelRecord)]
-    stop: Annotated[StopRecord, one(StopRecord)]
+    stop: Annotated[StopRecord | None, optional(one(StopRecord))]

@@ -31,7 +31,7 @@ def settings_for(numbered: NumberedMove) -> tuple[ProfileSettings, ProfileProof]
     Raises
     ------
     DesignError
-        If the move does not rest, or no stop keeps the limits.
+        If the move does not rest, or rounding exceeds a limit.
     """
     pieces = _pieces(numbered)
     model = block_model(numbered)
@@ -105,10 +105,12 @@ def _pieces(numbered: NumberedMove) -> Pieces:
     return compressed(numbered.shape, numbered.number, is_kept)
 
 
-def _stop(numbered: NumberedMove, pieces: Pieces, model: ProfileModel) -> tuple[StopLaw, ProfileProof]:
+def _stop(numbered: NumberedMove, pieces: Pieces, model: ProfileModel) -> tuple[StopLaw | None, ProfileProof]:
     """Find the shortest stop, and the smallest table of it that keeps the limits in the number type."""
     shape = pieces.values(numbered.number)
     found = shortest_stop(numbered.model, shape, _shape_limits(numbered))
+    if found is None:
+        return None, proved(numbered, pieces, model, None)
     for gains in _tables(numbered, found, shape):
         stop = StopLaw(gains, numbered.rounded_all(found.rest))
         proof = proved(numbered, pieces, model, stop)

@@ -1,6 +1,7 @@
 """Each sentence of what the motion profile does, under any history of its inputs."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -181,17 +182,48 @@ def test_a_move_is_busy_for_its_ticks_then_done_at_the_target_exactly(kind):
 
 
 @every_kind
-def test_a_stop_from_any_tick_lasts_its_ticks_and_from_there_the_next_move_starts(kind):
+def test_an_abort_rests_by_a_stop_or_by_the_end_of_the_move_whichever_is_sooner(kind):
     block = settings_of(*kind)
-    m = block.stop.ticks
-    for abort_at in range(1, block.pieces.ticks):
-        history = [(tick == 0, tick == abort_at, 0.0, 1.0) for tick in range(abort_at + m)]
-        trace = run(block, [*history, (False, False, None, 0.5), (True, False, None, 0.5)])
-        *played, rests, starts = [output for _, output in trace]
+    n, m = block.pieces.ticks, block.stop.ticks
+    whole = [output for _, output in moved(block, ticks=n)]
+    for abort_at in range(1, n):
+        lasts = min(m, n - abort_at)
+        trace = moved(block, ticks=abort_at + lasts + 1, abort_at=abort_at)
+        *played, rests = [output for _, output in trace]
         stopping = [bool(output.status & ProfileStatus.STOPPING) for output in played]
-        assert stopping == [False] * abort_at + [True] * m
-        assert (rests.aborted, rests.busy, starts.busy, refused(starts)) == (True, False, True, 0)
+        assert stopping == [False] * abort_at + [True] * lasts
+        assert (rests.aborted, rests.done, rests.busy) == (True, False, False)
+        goes_on = [output.reference for output in played] == [
+            output.reference for output in whole[: len(played)]
+        ]
+        assert goes_on == (n - abort_at <= m)
+        assert (rests.position == 1.0) == goes_on
+
+
+@every_kind
+def test_where_it_rests_after_an_abort_the_next_move_starts(kind):
+    block = settings_of(*kind)
+    n, m = block.pieces.ticks, block.stop.ticks
+    for abort_at in (1, n - m - 1, n - m, n - 1):
+        history = [(tick == 0, tick == abort_at, 0.0, 1.0) for tick in range(abort_at + m + 1)]
+        (_, rests), (_, starts) = run(block, [*history, (True, False, None, 0.5)])[-2:]
         assert rests.reference == block.number.scalar(block.hold_ratio) * rests.position
+        assert starts.busy
+        assert refused(starts) == 0
+
+
+@every_kind
+def test_without_a_stop_every_abort_goes_on_to_the_end(kind):
+    with_stop = settings_of(*kind)
+    block = replace(with_stop, stop=None)
+    n = block.pieces.ticks
+    *played, rests = [output for _, output in moved(block, ticks=n + 1, abort_at=1)]
+    assert [output.reference for output in played] == [
+        output.reference for _, output in moved(block, ticks=n)
+    ]
+    assert (rests.aborted, rests.done, rests.position) == (True, False, 1.0)
+    assert block.rest_ticks == n - 1
+    assert with_stop.rest_ticks == with_stop.stop.ticks < n - 1
 
 
 @every_kind

@@ -15,12 +15,12 @@ class MovingModel:
     Parameters
     ----------
     model : ProfileModel
-    stop : StopLaw
+    stop : StopLaw or None
     number : NumberType
         ``double`` or ``float``.
     """
 
-    def __init__(self, model: ProfileModel, stop: StopLaw, number: NumberType) -> None:
+    def __init__(self, model: ProfileModel, stop: StopLaw | None, number: NumberType) -> None:
         scalar = number.scalar
         self._zero = scalar(0)
         self._rows = [
@@ -28,8 +28,8 @@ class MovingModel:
             for row, into in zip(model.change.tolist(), model.input.tolist(), strict=True)
         ]
         self._output = [scalar(value) for value in [*model.output.tolist(), model.feedthrough]]
-        self._stop = TablePlayer(stop.pieces, number)
-        self._rest = [scalar(value) for value in stop.rest.tolist()]
+        self._stop = None if stop is None else TablePlayer(stop.pieces, number)
+        self._rest = [] if stop is None else [scalar(value) for value in stop.rest.tolist()]
         self.start()
 
     def start(self) -> None:
@@ -45,15 +45,18 @@ class MovingModel:
         self._last = shape
         return summed(self._output, now)
 
-    def begin_stop(self) -> None:
-        """Remember where the stop begins."""
-        self._known = [*self._states, self._last]
+    def stops_within(self, ticks: int) -> bool:
+        """Begin a stop, if that is over sooner than in so many ticks; say whether it is."""
+        if self._stop is None:
+            return False
         self._stop.rewind()
+        self._known = [*self._states, self._last]
+        return ticks > self._stop.left
 
     @property
     def has_stopped(self) -> bool:
         """Whether the last tick of the stop has been played."""
-        return self._stop.is_over
+        return self._stop is None or self._stop.is_over
 
     @property
     def rest(self) -> Any:
@@ -62,4 +65,4 @@ class MovingModel:
 
     def next_of_stop(self) -> Any:
         """Give the input of this tick of the stop and go on to the next."""
-        return self._stop.next(self._known)
+        return self._zero if self._stop is None else self._stop.next(self._known)

@@ -15,7 +15,7 @@ class ProfileInput:
     execute : bool
         Its rising edge starts a move.
     abort : bool
-        While it is true a move is brought to rest, and none starts.
+        True in any tick of a move brings it to rest; while it is true none starts.
     start : float or numpy.float32
         Position from which to move, in units of the plant's output; read when a move starts, and before the
         first move also where the block holds.
@@ -44,7 +44,7 @@ class ProfileOutput:
     done : bool
         The target is reached; true while `execute` is, and for one tick at least.
     aborted : bool
-        A stop has come to rest; as long.
+        It rests after an abort, at the end of a stop, or of the move where that is sooner; as long.
     status : int
         Sum of the bits of `ProfileStatus`.
     """

@@ -60,7 +60,7 @@ class MotionProfile:
         self._position = scalar(settings.first_position)
         self._start = self._target = self._travel = scalar(0)
         self._phase = _RESTING
-        self._executed = self._has_moved = self._done = self._aborted = False
+        self._executed = self._has_moved = self._is_aborting = self._done = self._aborted = False
         self._refused = 0
 
     def step(self, pins: ProfileInput) -> ProfileOutput:
@@ -78,20 +78,25 @@ class MotionProfile:
             if not self._refused:
                 self._begin(pins)
         reference, position = self._play()
-        status |= self._refused | (_STOPPING if self._phase == _IN_STOP else 0)
+        status |= self._refused | (_STOPPING if self._is_aborting else 0)
         busy = self._phase != _RESTING
         return ProfileOutput(reference, position, busy, self._done, self._aborted, status)
 
     def _go_on(self, abort: bool) -> None:
-        """End what is over, and begin a stop where it is asked for."""
-        if self._phase == _MOVING and self._table.is_over:
-            self._phase, self._done, self._position = _RESTING, True, self._target
-        elif self._phase == _MOVING and abort:
-            self._phase = _IN_STOP
-            self._model.begin_stop()
-        elif self._phase == _IN_STOP and self._model.has_stopped:
-            self._phase, self._aborted = _RESTING, True
-            self._position = self._start + (self._travel * self._model.rest)
+        """End what is over; after an abort begin a stop, unless the move itself is over as soon."""
+        if self._phase == _IN_STOP and self._model.has_stopped:
+            self._come_to_rest(self._start + (self._travel * self._model.rest))
+        elif self._phase == _MOVING and self._table.is_over:
+            self._come_to_rest(self._target)
+        elif self._phase == _MOVING and abort and not self._is_aborting:
+            self._is_aborting = True
+            if self._model.stops_within(self._table.left):
+                self._phase = _IN_STOP
+
+    def _come_to_rest(self, position: Any) -> None:
+        self._phase, self._position = _RESTING, position
+        self._done, self._aborted = not self._is_aborting, self._is_aborting
+        self._is_aborting = False
 
     def _follow(self, start: Any) -> int:
         """Hold where `start` says, if it can; before the first move nobody else knows where the plant is."""

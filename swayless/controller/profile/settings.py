@@ -35,8 +35,9 @@ class ProfileSettings:
         Input of a move by 1 from 0, less what held the plant before: its shape.
     model : ProfileModel
         The plant from tick to tick.
-    stop : StopLaw
-        What is played after an abort.
+    stop : StopLaw or None
+        What is played after an abort with more ticks left than it has; None where the move always goes on
+        to its end, as no stop would be over sooner.
     extremes : Extremes
         Of all that can be played.
     limits : tuple of two floats
@@ -59,7 +60,7 @@ class ProfileSettings:
     tick_s: float
     pieces: Pieces
     model: ProfileModel
-    stop: StopLaw
+    stop: StopLaw | None
     extremes: Extremes
     limits: tuple[float, float]
     hold_ratio: float = 0.0
@@ -81,10 +82,15 @@ class ProfileSettings:
                 f"profile: max_travel = {self.max_travel!r}: must be above 0, at most {LARGEST_POSITION:g}"
             )
 
+    @property
+    def rest_ticks(self) -> int:
+        """At most so many ticks after an abort the plant rests: by a stop, or by the end of the move."""
+        return self.pieces.ticks - 1 if self.stop is None else self.stop.ticks
+
     def _check_sizes(self) -> None:
         if self.pieces.coefficients.ndim != 2:
             raise ControllerError("profile: pieces of rows: the value of a tick must be one number")
-        if self.stop.rest.size != self.model.order + 1:
+        if self.stop is not None and self.stop.rest.size != self.model.order + 1:
             raise ControllerError(
                 f"profile: stop of {self.stop.rest.size} gains a tick: must be {self.model.order + 1}, for"
                 " the states of the model and the input before"
@@ -93,14 +99,14 @@ class ProfileSettings:
     def _numbers(self) -> dict[str, tuple[FloatArray, float]]:
         """Every number of the block, with the largest that it may be."""
         model, stop, wide = self.model, self.stop, LARGEST_POSITION
+        gains = {} if stop is None else {"stop.pieces": stop.pieces.coefficients, "stop.rest": stop.rest}
         return {
+            **{name: (values, wide) for name, values in gains.items()},
             "pieces": (self.pieces.coefficients, wide),
             "model.change": (model.change, wide),
             "model.input": (model.input, wide),
             "model.output": (model.output, wide),
             "model.feedthrough": (np.array([model.feedthrough]), LARGEST_REST),
-            "stop.pieces": (stop.pieces.coefficients, wide),
-            "stop.rest": (stop.rest, wide),
             "extremes.shape": (np.array(self.extremes.shape), LARGEST_SHAPE),
             "extremes.rest": (np.array(self.extremes.rest), LARGEST_REST),
             "limits": (np.array(self.limits), LARGEST_INPUT),

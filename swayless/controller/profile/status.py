@@ -29,7 +29,7 @@ _MEANINGS: dict[ProfileStatus, str] = {
     ProfileStatus.TRAVEL_TOO_LONG: "refused: target less start is beyond the longest travel",
     ProfileStatus.START_ELSEWHERE: "refused: start is not where the block rests, the reference would jump",
     ProfileStatus.START_INVALID: "start is not finite or beyond the limits: the last good one holds",
-    ProfileStatus.STOPPING: "abort was true: a stop plays",
+    ProfileStatus.STOPPING: "abort was true: a stop, or the end of the move, plays",
 }
 
 
@@ -39,6 +39,6 @@ def explain_profile(bit: ProfileStatus) -> str:
     Examples
     --------
     >>> explain_profile(ProfileStatus.STOPPING)
-    'abort was true: a stop plays'
+    'abort was true: a stop, or the end of the move, plays'
     """
     return _MEANINGS[bit]

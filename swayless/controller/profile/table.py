@@ -18,6 +18,11 @@ class TablePlayer:
         What to play.
     number : NumberType
         ``double`` or ``float``.
+
+    Attributes
+    ----------
+    left : int
+        Ticks that have not been played.
     """
 
     def __init__(self, pieces: Pieces, number: NumberType) -> None:
@@ -32,11 +37,12 @@ class TablePlayer:
     def rewind(self) -> None:
         """Begin again."""
         self._piece = self._index = 0
+        self.left: int = sum(self._lengths)
 
     @property
     def is_over(self) -> bool:
         """Whether the last tick has been played."""
-        return self._piece == len(self._lengths)
+        return self.left == 0
 
     def next(self, factors: Sequence[Any] = ()) -> Any:
         """Give the value of this tick and go on to the next.
@@ -54,6 +60,7 @@ class TablePlayer:
             local = (self._scalar(self._index) * self._scales[self._piece]) - self._one
             for coefficient in reversed(lower):
                 value = (value * local) + coefficient
+        self.left -= 1
         self._index += 1
         if self._index == self._lengths[self._piece]:
             self._index = 0

@@ -5,7 +5,7 @@ Not for: finding the command (`swayless.design.optimal`), or number types.
 
 from swayless.design.playing.proof import error_after_stops, final_error_ratio, largest_step
 from swayless.design.playing.shape_model import ShapeModel, shape_model
-from swayless.design.playing.stopping import ShapeLimits, Stop, shortest_stop
+from swayless.design.playing.stopping import ShapeLimits, Stop, shortest_stop, stops_needed
 
 __all__ = [
     "ShapeLimits",
@@ -16,4 +16,5 @@ __all__ = [
     "largest_step",
     "shape_model",
     "shortest_stop",
+    "stops_needed",
 ]

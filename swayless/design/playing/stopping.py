@@ -16,14 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swayless.design.optimal.task import LARGEST_TICKS
 from swayless.design.playing.shape_model import ShapeModel
 from swayless.design.shaper import FloatArray
-from swayless.errors import DesignError
 
 _BLOCK = 1 << 22  # inputs of stops that are held in memory at once
-_ROUNDING = 1e-12  # of a share: sums over other columns may add up in another order
-_WITNESSES = 256  # aborts by which lengths are rejected, before all aborts are tried
 
 
 @dataclass(frozen=True)
@@ -63,8 +59,10 @@ class Stop:
         return np.asarray(self.gains @ known)
 
 
-def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> Stop:
-    """Find the length of a stop at which all aborts keep the limits, while one does not at a tick less.
+def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> Stop | None:
+    """Find the length of a stop at which it keeps the limits wherever the move itself would last longer.
+
+    After an abort with no more ticks left than a stop has, the move goes on to its end: it rests no later.
 
     Parameters
     ----------
@@ -73,14 +71,16 @@ def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> 
         Input of a move by 1 from rest, within the limits.
     limits : ShapeLimits
 
-    Raises
-    ------
-    DesignError
-        If no stop of up to 20000 ticks keeps the limits.
+    Returns
+    -------
+    Stop or None
+        Of m ticks, where one of m - 1 would break a limit, or have fewer ticks than there are conditions of
+        rest. None where nothing is gained: after the first tick the move is over as soon as a stop would be.
 
     Examples
     --------
-    A mass pushed for three ticks and braked for three is stopped in three, with 1.1 as its limit:
+    A mass pushed for three ticks and braked for three is stopped in two, from the first tick or the second;
+    from the third on the move itself is over in three:
 
     >>> from swayless.design.optimal import LinearPlant
     >>> from swayless.design.playing.shape_model import shape_model
@@ -93,29 +93,11 @@ def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> 
            [ 0.        , -0.33333333,  0.        ]])
     """
     known = np.vstack([model.states(shape)[1:-1].T, shape[:-1]])
-    if known.shape[1] == 0:
-        return _stop_of(model, limits, model.final.size)
-    tried = np.unique(np.linspace(0, known.shape[1] - 1, _WITNESSES).astype(np.int64))
-    while True:
-        stop = _shortest(model, known[:, tried], limits)
-        broken = _broken(stop, known, model, limits, allowed=1.0 + _ROUNDING)
-        if broken is None:
-            return stop
-        tried = np.append(tried, broken)
-
-
-def _shortest(model: ShapeModel, known: FloatArray, limits: ShapeLimits) -> Stop:
-    """Double the length until all aborts keep the limits, then bisect."""
     below, ticks = model.final.size - 1, model.final.size
-    found = _keeping(model, known, limits, ticks)
-    while found is None:
-        if ticks >= LARGEST_TICKS:
-            raise DesignError(
-                f"stop: none of up to {LARGEST_TICKS} ticks keeps the limits after every abort of this move;"
-                " more limit, or a robustness of lower order, is needed"
-            )
-        below, ticks = ticks, min(2 * ticks, LARGEST_TICKS)
-        found = _keeping(model, known, limits, ticks)
+    found, beyond = None, known.shape[1]
+    while ticks < beyond and (found := _keeping(model, known, limits, ticks)) is None:
+        below, ticks = ticks, 2 * ticks
+    ticks = min(ticks, beyond)
     while ticks - below > 1:
         middle = (below + ticks) // 2
         tried = _keeping(model, known, limits, middle)
@@ -127,12 +109,29 @@ def _shortest(model: ShapeModel, known: FloatArray, limits: ShapeLimits) -> Stop
 
 
 def _keeping(model: ShapeModel, known: FloatArray, limits: ShapeLimits, ticks: int) -> Stop | None:
-    """Give the stop of a length if all aborts keep the limits."""
+    """Give the stop of a length if it keeps the limits after every abort that has more ticks left."""
     try:
         stop = _stop_of(model, limits, ticks)
     except np.linalg.LinAlgError:
         return None  # so short that conditions cannot be told apart
-    return stop if _broken(stop, known, model, limits) is None else None
+    early = known[:, : stops_needed(known.shape[1] + 1, ticks)]
+    for begin, end in blocks(early.shape[1], ticks):
+        if not (_shares(stop, early[:, begin:end], model, limits) <= 1.0).all():
+            return None
+    return stop
+
+
+def stops_needed(move_ticks: int, stop_ticks: int) -> int:
+    """Count the ticks 1, 2, ... at which an abort begins a stop, as the move would last longer.
+
+    Examples
+    --------
+    A move of 6 ticks has 5 left at tick 1:
+
+    >>> stops_needed(6, 3), stops_needed(6, 5)
+    (2, 0)
+    """
+    return max(0, move_ticks - 1 - stop_ticks)
 
 
 def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
@@ -152,32 +151,19 @@ def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
     bands = np.full((2, ticks), -changed)
     bands[1] = width + 2.0 * changed
     itself = solveh_banded(bands, changed * np.eye(ticks, 1)[:, 0])
-    through = model.kept @ model.system.reach(ticks)
+    through: FloatArray = model.kept @ model.system.reach(ticks)
     rows, triangle = qr(through.T, mode="economic")
     added = solveh_banded(bands, rows)
     half = cholesky(rows.T @ added, lower=True)
     moved = np.column_stack([-model.kept @ np.linalg.matrix_power(model.system.a, ticks), -through @ itself])
-    per_rest = through @ (held * (1.0 - itself)) - model.final
+    moved = np.column_stack([moved, through @ (held * (1.0 - itself)) - model.final])
     # Both sides in the metric of the least sum of squares, so that the best q is a projection.
-    whole = np.linalg.solve(triangle.T, np.column_stack([moved, per_rest]))
-    wanted = np.linalg.solve(half, whole)
-    wanted, per_rest = wanted[:, :-1], wanted[:, -1]
+    whole: FloatArray = np.linalg.solve(triangle.T, moved)
+    both = np.linalg.solve(half, whole)
+    wanted, per_rest = both[:, :-1], both[:, -1]
     rest = per_rest @ wanted / (per_rest @ per_rest)
     prices = np.linalg.solve(half.T, wanted - np.outer(per_rest, rest))
     return Stop(held * rest + np.outer(itself, last - held * rest) + added @ prices, rest)
-
-
-def _broken(
-    stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits, allowed: float = 1.0
-) -> int | None:
-    """Give the abort that breaks a limit most; None if none takes more than the share allowed."""
-    worst, broken = allowed, None
-    for begin, end in blocks(known.shape[1], len(stop.gains)):
-        shares = _shares(stop, known[:, begin:end], model, limits)
-        most = int(np.nan_to_num(shares, nan=np.inf).argmax())
-        if not shares[most] <= worst:
-            worst, broken = float(shares[most]), begin + most
-    return broken
 
 
 def _shares(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> FloatArray:
@@ -199,6 +185,6 @@ def over(inputs: FloatArray, limits: ShapeLimits) -> FloatArray:
 
 def blocks(count: int, ticks: int) -> Iterator[tuple[int, int]]:
     """Give begin and end of ranges of aborts whose stops of so many ticks are small enough to hold."""
-    size = max(1, _BLOCK // ticks)
+    size = max(1, _BLOCK // max(ticks, 1))
     for begin in range(0, count, size):
         yield begin, min(count, begin + size)
