@@ -198,7 +198,7 @@ def _print_tuned(facts: dict[str, Any], before: ElasticDrive, after: ElasticDriv
     ]
     print_table(f"{facts['name']}: {counted(facts['records'], 'record')}", ("", "value"), measured)
     old, new = ({**_values(drive), **_ratios(drive)} for drive in (before, after))
-    rows = [(name, f"{old[name]:.6g}", f"{new[name]:.6g}") for name in old]
+    rows = [(name, f"{old[name]:.4g}", f"{new[name]:.4g}") for name in old]
     print_table(f"{facts['step']} step", ("parameter", "before", "after"), rows)
     print_line(f"note: {UNSEEN}")
     if facts["step"] == StepName.scaled and facts["expected_cost"] > 0.9 * facts["cost"]:

@@ -168,7 +168,7 @@ def _drive(value: object, place: Place) -> ElasticDrive | None:
     try:
         return ElasticDrive(*good)
     except PlantError as error:
-        place.problem(str(error))
+        place.report.problems.append(f"{place.report.file}: [{place.path}] {error}")
         return None
 
 

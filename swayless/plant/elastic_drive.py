@@ -72,7 +72,7 @@ class ElasticDrive:
 
     References
     ----------
-    Visioli and Piazzi (2007), eqs 1 to 5.
+    Visioli and Piazzi (2008), eqs 1 to 5.
 
     Examples
     --------
@@ -146,7 +146,7 @@ class ElasticDrive:
 
         References
         ----------
-        Visioli and Piazzi (2007), eqs 17 to 19, less their sign: P1 + P2 + P3 = - d ln H.
+        Visioli and Piazzi (2008), eqs 17 to 19, less their sign: P1 + P2 + P3 = - d ln H.
 
         Examples
         --------

@@ -97,7 +97,7 @@ def invert(
 
     References
     ----------
-    Visioli and Piazzi (2007), section 2; Piazzi and Visioli (2001), "Point-to-point motion planning for
+    Visioli and Piazzi (2008), section 2; Piazzi and Visioli (2001), "Point-to-point motion planning for
     servosystems with elastic transmission via optimal dynamic inversion".
 
     Examples

@@ -58,7 +58,7 @@ class MeasuredMove:
         return self.first_s + self.step_s * np.arange(self.position.size, dtype=np.float64)
 
     def error(self, motion: PolynomialMotion) -> FloatArray:
-        """How far the load was off its motion, shape (n,): Visioli and Piazzi (2007), eq 11."""
+        """How far the load was off its motion, shape (n,): Visioli and Piazzi (2008), eq 11."""
         return np.asarray(self.position - motion.at(self.times_s), dtype=np.float64)
 
 
@@ -67,7 +67,7 @@ def cost(motion: PolynomialMotion, moves: Sequence[MeasuredMove]) -> float:
 
     References
     ----------
-    Visioli and Piazzi (2007), eq 8, for one move; by the trapezoidal rule.
+    Visioli and Piazzi (2008), eq 8, for one move; by the trapezoidal rule.
 
     Examples
     --------

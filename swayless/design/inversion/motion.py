@@ -37,7 +37,7 @@ class PolynomialMotion:
 
     References
     ----------
-    Visioli and Piazzi (2007), eq 20; Piazzi and Visioli (2001), "Optimal noncausal set-point regulation of
+    Visioli and Piazzi (2008), eq 20; Piazzi and Visioli (2001), "Optimal noncausal set-point regulation of
     scalar systems", for any order.
 
     Examples

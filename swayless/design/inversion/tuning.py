@@ -24,7 +24,7 @@ from swayless.plant.elastic_drive import ElasticDrive, Ratio
 
 PAPER_GAIN = 1e-3
 PAPER_WEIGHTS = (1e-3, 1e-3, 1.0, 1.0, 10.0)
-"""Step size and diagonal of R^-1, in the order of `TUNED`: Visioli and Piazzi (2007), section 5.1."""
+"""Step size and diagonal of R^-1, in the order of `TUNED`: Visioli and Piazzi (2008), section 5.1."""
 
 _ROUNDS = 60
 _HALVINGS = 12
@@ -59,7 +59,7 @@ def gradient(drive: ElasticDrive, motion: PolynomialMotion, moves: Sequence[Meas
 
     References
     ----------
-    Visioli and Piazzi (2007), eqs 10 and 14 to 19: the measured positions pass through P1 + P2 + P3, here
+    Visioli and Piazzi (2008), eqs 10 and 14 to 19: the measured positions pass through P1 + P2 + P3, here
     straight from one to the next.
     """
     _check_damping(drive)
@@ -98,7 +98,7 @@ def paper_step(
 
     References
     ----------
-    Visioli and Piazzi (2007), eq 9.
+    Visioli and Piazzi (2008), eq 9.
     """
     values = drive.tuned - gain * np.asarray(weights) * gradient(drive, motion, moves)
     try:
