@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from swayless.machine.profile_file import ProfileRequest
     from swayless.report.profile import PlottedMove
 
-TABLE, *FIGURES = (".csv", ".svg", ".png", ".pdf")
+TABLE, PAGE, *FIGURES = (".csv", ".html", ".svg", ".png", ".pdf")
 """What suffixes become."""
 
 
@@ -39,6 +39,16 @@ def draw_move(request: ProfileRequest, found: OptimalCommand) -> Figure:
     from swayless.report.profile import move_figure
 
     return move_figure(plotted(request, found.command))
+
+
+def write_page(request: ProfileRequest, found: OptimalCommand) -> str:
+    """Write the page on what was found: facts, proof and figure."""
+    from swayless.cli.profile_output import found_remarks, found_tables
+    from swayless.report.profile_page import PageTable, page_text
+
+    title = move_title(request.name, request.task.start, request.task.target, found.command)
+    tables = [PageTable(*table) for table in found_tables(request, found)]
+    return page_text(title, tables, found_remarks(request, found), draw_move(request, found))
 
 
 def plotted(request: ProfileRequest, command: Command) -> PlottedMove:
@@ -69,19 +79,26 @@ def move_title(name: str, start: float, target: float, command: Command) -> str:
     return f"{name}: {start:g} to {target:g} in {lasts}"
 
 
-def check_places(paths: Sequence[Path]) -> None:
+def check_places(paths: Sequence[Path], *, page: bool = False) -> None:
     """Refuse a place in which nothing can be written, before anything is computed.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Where to write.
+    page : bool
+        Whether a page can be written.
 
     Raises
     ------
     FileError
-        If a suffix is neither that of a table nor a figure's, or a folder is missing.
+        If a suffix is not known, or a folder is missing.
     """
-    allowed = f"must be {TABLE} for a table, or a figure's: {', '.join(FIGURES)}"
+    known = (TABLE, *([PAGE] if page else []), *FIGURES)
+    of_page = f"{PAGE} for a page, " if page else ""
+    allowed = f"must be {TABLE} for a table, {of_page}or a figure's: {', '.join(FIGURES)}"
     wrong = [
-        f"{path}: suffix {path.suffix!r}: {allowed}"
-        for path in paths
-        if path.suffix.lower() not in (TABLE, *FIGURES)
+        f"{path}: suffix {path.suffix!r}: {allowed}" for path in paths if path.suffix.lower() not in known
     ]
     absent = [
         f"{path}: cannot be written: there is no folder {path.parent}"
@@ -92,17 +109,24 @@ def check_places(paths: Sequence[Path]) -> None:
         raise FileError([*wrong, *absent])
 
 
-def write_by_suffix(paths: Sequence[Path], table: Callable[[], str], draw: Callable[[], Figure]) -> None:
-    """Write a table or a figure to each path, after its suffix.
+def write_by_suffix(
+    paths: Sequence[Path],
+    table: Callable[[], str],
+    draw: Callable[[], Figure],
+    page: Callable[[], str] | None = None,
+) -> None:
+    """Write a table, a figure or a page to each path, after its suffix.
 
     Raises
     ------
     FileError
         If a file cannot be written.
     """
+    texts = {TABLE: table, PAGE: page}
     for path in paths:
-        if path.suffix.lower() == TABLE:
-            write_text_atomically(path, table())
+        text = texts.get(path.suffix.lower())
+        if text is not None:
+            write_text_atomically(path, text())
         else:
             from swayless.report import save_figure
 

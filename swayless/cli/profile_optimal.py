@@ -70,8 +70,8 @@ OutputOption = Annotated[
         "-o",
         "--output",
         metavar="FILE",
-        help="Write command and trajectory, one line a tick (.csv), or draw them (.svg, .png, .pdf); may be"
-        " given several times.",
+        help="Write command and trajectory, one line a tick (.csv), draw them (.svg, .png, .pdf), or both"
+        " with what is proved (.html); may be given several times.",
     ),
 ]
 
@@ -110,7 +110,7 @@ def optimal(
     """
     from swayless.cli.console import print_json
     from swayless.cli.option_table import option_table
-    from swayless.cli.profile_figures import check_places, draw_move, write_by_suffix
+    from swayless.cli.profile_figures import check_places, draw_move, write_by_suffix, write_page
     from swayless.cli.profile_output import document, print_found, trajectory_text
     from swayless.cli.profile_work import found_for
     from swayless.machine.profile_file import load_profile
@@ -132,10 +132,15 @@ def optimal(
         "frequency": frequency,
     }
     outputs = output or []
-    check_places(outputs)
+    check_places(outputs, page=True)
     request = load_profile(file, option_table(given, []).raw, axis=axis)
     found = found_for(request)
-    write_by_suffix(outputs, lambda: trajectory_text(request, found), lambda: draw_move(request, found))
+    write_by_suffix(
+        outputs,
+        lambda: trajectory_text(request, found),
+        lambda: draw_move(request, found),
+        lambda: write_page(request, found),
+    )
     if json:
         print_json(document(request, found))
         return

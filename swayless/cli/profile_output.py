@@ -5,6 +5,7 @@ Not for: finding the command.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from swayless.cli.console import counted, per_cent, print_line, print_table, rounded_down
@@ -87,6 +88,16 @@ def trajectory_text(request: ProfileRequest, found: OptimalCommand) -> str:
 
 def print_found(request: ProfileRequest, found: OptimalCommand) -> None:
     """Print a command for a person: how long, what is proved, and what is left where the plant differs."""
+    for title, heads, rows in found_tables(request, found):
+        print_table(title, heads, rows)
+    for line in found_remarks(request, found):
+        print_line(line)
+
+
+def found_tables(
+    request: ProfileRequest, found: OptimalCommand
+) -> list[tuple[str, Sequence[str], Sequence[Sequence[str]]]]:
+    """Give title, heads and rows of the tables on a command: its facts, and what its modes leave, if any."""
     task, command = request.task, found.command
     how = "fastest" if found.fewer_utilisation_ratio is not None else "least energy"
     lasts = f"{counted(found.ticks, 'tick')} of {command.tick_s:g} s, {command.duration_s:.6g} s"
@@ -98,19 +109,25 @@ def print_found(request: ProfileRequest, found: OptimalCommand) -> None:
         ("takes of the limits", per_cent(found.utilisation_ratio)),
         ("misses rest by", f"{found.final_error_ratio:.1g} of the largest state"),
     ]
-    print_table(request.name, ("", "value"), rows)
+    facts = (request.name, ("", "value"), rows)
     modes = _left_rows(request, found)
-    if modes:
-        heads = ("mode [Hz]", *(f"at {100 * ratio:g} %" for ratio in OFF))
-        print_table("left swinging at the end, where the frequency is off", heads, modes)
-    merged = task.plant.merged_pole_rad_s
-    if merged is not None:
-        print_line(f"note: two modes at {shown(merged)} rad/s are one: none can be off on its own")
+    heads = ("mode [Hz]", *(f"at {100 * ratio:g} %" for ratio in OFF))
+    left = ("left swinging at the end, where the frequency is off", heads, modes)
+    return [facts, left] if modes else [facts]
+
+
+def found_remarks(request: ProfileRequest, found: OptimalCommand) -> list[str]:
+    """Give what is proved of a command, in sentences."""
+    merged = request.task.plant.merged_pole_rad_s
+    notes = (
+        []
+        if merged is None
+        else [f"note: two modes at {shown(merged)} rad/s are one: none can be off on its own"]
+    )
     if found.fewer_utilisation_ratio is not None:
-        print_line(_proof(found.ticks - 1, found.fewer_utilisation_ratio))
-    else:
-        least = rounded_down(100.0 * found.proved_utilisation_ratio)
-        print_line(f"proved: no command of this length takes less than {least} % of the limits")
+        return [*notes, _proof(found.ticks - 1, found.fewer_utilisation_ratio)]
+    least = rounded_down(100.0 * found.proved_utilisation_ratio)
+    return [*notes, f"proved: no command of this length takes less than {least} % of the limits"]
 
 
 def _left_rows(request: ProfileRequest, found: OptimalCommand) -> list[tuple[str, ...]]:

@@ -302,9 +302,18 @@ def test_what_was_simulated_is_written_and_drawn(run, tmp_path):
 
 
 def test_a_move_is_written_and_drawn_at_once(run, tmp_path):
-    done = run("profile", "optimal", EXAMPLE, "-o", "move.csv", "-o", "move.pdf")
-    assert done.out.endswith("move.csv: written\nmove.pdf: written\n")
+    done = run("profile", "optimal", EXAMPLE, "-o", "move.csv", "-o", "move.pdf", "-o", "move.html")
+    assert done.out.endswith("move.csv: written\nmove.pdf: written\nmove.html: written\n")
     assert (tmp_path / "move.pdf").read_bytes().startswith(b"%PDF")
+    page = (tmp_path / "move.html").read_text(encoding="ascii")
+    for said in (
+        "<td>58 ticks of 0.005 s, 0.29 s</td>",
+        "<td>0.0389</td>",
+        "<p>proved: 57 ticks would",
+        "<svg ",
+    ):
+        assert said in page
+    assert "<script" not in page
 
 
 def test_a_crane_is_simulated_on_other_ropes(run, tmp_path):
