@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ from swayless.cli.console import counted, per_cent
 
 if TYPE_CHECKING:
     from swayless.codegen.profile_model import ProfileOrigin
+    from swayless.controller.profile import Pieces
     from swayless.machine.profile_design import ProfileDesign
 
 
@@ -31,7 +33,7 @@ def profile_origin(design: ProfileDesign, text: str) -> ProfileOrigin:
         hashlib.sha256(text.encode("ascii")).hexdigest(),
         f"Proved with these numbers: a move leaves at most {promise.final_error_ratio:g} of each state's"
         " largest,",
-        f"a stop from any tick {promise.stop_error_ratio:g}; both keep the limits.",
+        f"an abort at any tick {_after_aborts(design):g}; limits are kept. {_where_stops_rest(design)}",
     )
     return ProfileOrigin(design.name, design.generator, design.source, facts, (move.start, move.target))
 
@@ -51,7 +53,8 @@ def profile_facts(design: ProfileDesign, origin: str) -> dict[str, Any]:
         "number": settings.number.name,
         "tick_s": settings.tick_s,
         "ticks": settings.pieces.ticks,
-        "stop_ticks": settings.stop.ticks,
+        "stop_ticks": settings.rest_ticks,
+        "stop_rests_at": list(settings.extremes.rest),
         "limit": list(settings.limits),
         "hold_ratio": settings.hold_ratio,
         "max_travel": settings.max_travel,
@@ -61,7 +64,7 @@ def profile_facts(design: ProfileDesign, origin: str) -> dict[str, Any]:
         },
         "largest_input_ratio": _largest_input_ratio(design),
         "table": _table(settings.pieces, design.table_bytes),
-        "stop_table": _table(settings.stop.pieces, design.stop_bytes),
+        "stop_table": settings.stop and _table(settings.stop.pieces, design.stop_bytes),
     }
 
 
@@ -77,26 +80,46 @@ def profile_lines(design: ProfileDesign, origin: str) -> Iterator[str]:
     settings, promise = design.settings, design.guarantee
     ticks, tick_s = settings.pieces.ticks, settings.tick_s
     lasts = f"a move in {counted(ticks, 'tick')} of {tick_s:g} s, {ticks * tick_s:.6g} s"
-    yield f"{design.name}: {lasts}; a stop in {counted(settings.stop.ticks, 'tick')}"
-    for what, pieces, sizes in (
-        ("table", settings.pieces, design.table_bytes),
-        ("stop", settings.stop.pieces, design.stop_bytes),
-    ):
-        form = "plain values" if pieces.is_raw else f"polynomials of degree {pieces.degree}"
-        yield (
-            f"{what}: {counted(pieces.lengths.size, 'piece')}, {form}: {counted(sizes[1], 'byte')} instead of"
-            f" {sizes[0]:,}"
-        )
+    at_rest = f"at rest at most {counted(settings.rest_ticks, 'tick')} after an abort"
+    yield f"{design.name}: {lasts}; {at_rest}"
+    yield _table_line("table", settings.pieces, design.table_bytes)
+    if settings.stop is None:
+        yield "stop: none, the end of the move is always sooner"
+    else:
+        yield _table_line("stop", settings.stop.pieces, design.stop_bytes)
     share = per_cent(_largest_input_ratio(design))
     yield (
-        f"proved: a move leaves at most {promise.final_error_ratio:g} of each state's largest, a stop from"
-        f" any tick {promise.stop_error_ratio:g}; both take up to {share} of the limits"
+        f"proved: a move leaves at most {promise.final_error_ratio:g} of each state's largest, an abort at"
+        f" any tick {_after_aborts(design):g}; both take up to {share} of the limits"
     )
+    if settings.stop is not None:
+        yield _where_stops_rest(design)[:-1]
     if origin != "new":
         yield f"design: {origin}"
 
 
-def _table(pieces: Any, sizes: tuple[int, int]) -> dict[str, int]:
+def _after_aborts(design: ProfileDesign) -> float:
+    """Promise of all ways to rest after an abort: a stop, or the end of the move."""
+    return max(design.guarantee.final_error_ratio, design.guarantee.stop_error_ratio)
+
+
+def _where_stops_rest(design: ProfileDesign) -> str:
+    """Say where a stop comes to rest, rounded outward."""
+    low, high = design.settings.extremes.rest
+    if design.settings.stop is None:
+        return "There are no stops: the end of the move is sooner."
+    return (
+        f"A stop rests at {math.floor(1e3 * low) / 1e3:g} to {math.ceil(1e3 * high) / 1e3:g} of the travel."
+    )
+
+
+def _table_line(what: str, pieces: Pieces, sizes: tuple[int, int]) -> str:
+    form = "plain values" if pieces.is_raw else f"polynomials of degree {pieces.degree}"
+    size = f"{counted(sizes[1], 'byte')} instead of {sizes[0]:,}"
+    return f"{what}: {counted(pieces.lengths.size, 'piece')}, {form}: {size}"
+
+
+def _table(pieces: Pieces, sizes: tuple[int, int]) -> dict[str, int]:
     return {
         "pieces": int(pieces.lengths.size),
         "degree": pieces.degree,

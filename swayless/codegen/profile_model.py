@@ -11,7 +11,13 @@ from swayless.codegen.literals import c_literal, shortest, st_literal
 from swayless.codegen.names import check_c_names, check_st_names
 from swayless.codegen.pin import Pin
 from swayless.codegen.profile_pins import INPUTS, OUTPUTS, StatusBit
-from swayless.codegen.profile_st_state import ST_ARRAYS, ST_TERMS, ST_VARIABLES
+from swayless.codegen.profile_st_state import (
+    ST_ARRAYS,
+    ST_STOP_ARRAYS,
+    ST_STOP_VARIABLES,
+    ST_TERMS,
+    ST_VARIABLES,
+)
 from swayless.codegen.profile_tables import (
     PlayedPieces,
     ProfileTable,
@@ -93,7 +99,7 @@ class ProfileCode:
     def __post_init__(self) -> None:
         check_c_names(self.name)
         names = [pin.st_name for pin in (*INPUTS, *OUTPUTS)]
-        names += [variable.st_name for variable in (*ST_VARIABLES, *ST_ARRAYS, ST_TERMS)]
+        names += [variable.st_name for variable in (*self.st_variables, *self.st_arrays, ST_TERMS)]
         names += [constant.st_name for constant in self.constants] + [t.st_name for t in self.tables]
         check_st_names(self.name, [f"FB_{self.name}_Profile", *names])
 
@@ -194,12 +200,12 @@ class ProfileCode:
     @property
     def st_variables(self) -> tuple[Variable, ...]:
         """Variables of the block, their type as a kind."""
-        return ST_VARIABLES
+        return ST_VARIABLES if self.stop is None else (*ST_VARIABLES, *ST_STOP_VARIABLES)
 
     @property
     def st_arrays(self) -> tuple[Variable, ...]:
         """Arrays of the number type, one cell longer than the states."""
-        return ST_ARRAYS
+        return ST_ARRAYS if self.stop is None else (*ST_ARRAYS, *ST_STOP_ARRAYS)
 
     @property
     def st_terms(self) -> Variable:
@@ -227,14 +233,43 @@ class ProfileCode:
         return move_pieces(self.settings)
 
     @cached_property
-    def stop(self) -> PlayedPieces:
-        """What a stop plays."""
+    def stop(self) -> PlayedPieces | None:
+        """What a stop plays; none where no stop is sooner than the end of the move."""
         return stop_pieces(self.settings)
+
+    @property
+    def played(self) -> tuple[PlayedPieces, ...]:
+        """All that can play."""
+        return (self.move,) if self.stop is None else (self.move, self.stop)
 
     @property
     def has_polynomials(self) -> bool:
         """Whether a piece of either has a variable."""
-        return self.move.degree > 0 or self.stop.degree > 0
+        return any(played.degree for played in self.played)
+
+    @property
+    def stop_terms(self) -> int:
+        """Coefficients of a piece of the stop that the block keeps; a tick of its own needs none."""
+        return 0 if self.stop is None or self.stop.is_raw else self.stop.coefficients
+
+    @property
+    def stop_ticks(self) -> int:
+        """At most so many ticks after an abort the plant rests."""
+        return self.settings.rest_ticks
+
+    @property
+    def how_it_stops(self) -> str:
+        """What brings the plant to rest after an abort."""
+        if self.stop is None:
+            return "by the end of the move; no stop is sooner"
+        return "by a stop, or by the end of the move where that is sooner"
+
+    @property
+    def abort_doc(self) -> str:
+        """What an abort does, for a comment."""
+        if self.stop is None:
+            return "after an abort the move goes on to its end, as aborted: no stop is sooner"
+        return "an abort begins a stop, unless the move is over sooner"
 
     def st_first(self, coefficients: int) -> str:
         """Index of the first coefficient of a piece; one of each tick needs no product."""
@@ -280,8 +315,8 @@ class ProfileCode:
     def ram_bytes(self) -> int:
         """Upper bound of the size of the C state."""
         real = ST_BYTES[self.st_types.real]
-        terms = 0 if self.stop.is_raw else self.stop.coefficients
-        return real * (2 * self.columns + 4 + terms) + 3 * 4 + 6 + 6
+        arrays = self.columns * (1 if self.stop is None else 2)
+        return real * (arrays + 4 + self.stop_terms) + 4 * 4 + 8
 
     @property
     def table_bytes(self) -> int:
@@ -293,14 +328,15 @@ class ProfileCode:
         """Lines of the comment at the head of a file, without comment marks."""
         ticks, tick_s = self.settings.pieces.ticks, self.settings.tick_s
         low, high = self.settings.limits
+        counted = "1 tick" if self.stop_ticks == 1 else f"{self.stop_ticks} ticks"
         return (
             f"{self.name}: motion profile. It plays a move computed ahead, from any start to any target.",
             "",
             f"Made by {self.origin.generator} from {self.origin.source or 'settings'}.",
             "This file is yours: use, change and ship it as you like.",
             "",
-            f"Tick {tick_s:.6g} s. A move takes {ticks} of them, {ticks * tick_s:.6g} s, however far it goes;"
-            f" a stop {self.settings.stop.ticks}.",
+            f"Tick {tick_s:.6g} s. A move takes {ticks} ticks, {ticks * tick_s:.6g} s, however far it goes.",
+            f"At most {counted} after an abort the plant rests: {self.how_it_stops}.",
             f"References from {low:.6g} to {high:.6g}; a move that could need more is refused.",
             *self.origin.facts,
             "Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,",

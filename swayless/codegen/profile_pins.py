@@ -8,7 +8,7 @@ from swayless.codegen.pin import pin
 
 INPUTS = (
     pin("execute", "bool", "its rising edge starts a move; ignored while one runs"),
-    pin("abort", "bool", "true: a running move is brought to rest, and none starts"),
+    pin("abort", "bool", "true in any tick of a move: it is brought to rest; while true none starts"),
     pin("start", "real", "where the move starts; before the first move the block holds there"),
     pin("target", "real", "where it ends; read, as start is, when execute rises"),
 )
@@ -19,7 +19,7 @@ OUTPUTS = (
     pin("position", "real", "where the plant is now, by its model: the reference of a feedback"),
     pin("busy", "bool", "a move or a stop plays"),
     pin("done", "bool", "the target is reached; true while execute is, and for one tick at least"),
-    pin("aborted", "bool", "a stop has come to rest; true as long as done would be"),
+    pin("aborted", "bool", "it rests after an abort; true as long as done would be"),
     pin("status", "word", "sum of the status bits"),
 )
 """Pins that it writes."""

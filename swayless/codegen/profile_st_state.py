@@ -8,7 +8,7 @@ ST_VARIABLES = (
     Variable("Executed", "bool", "Execute of the call before", st_reset="FALSE"),
     Variable("Placed", "bool", "a move was accepted: Start no longer matters at rest", st_reset="FALSE"),
     Variable("Playing", "bool", "a move or a stop plays", st_reset="FALSE"),
-    Variable("StopPlays", "bool", "a stop plays", st_reset="FALSE"),
+    Variable("Aborting", "bool", "Abort was TRUE: what plays ends as aborted", st_reset="FALSE"),
     Variable("HasArrived", "bool", "as the output Done", st_reset="FALSE"),
     Variable("HasStopped", "bool", "as the output Aborted", st_reset="FALSE"),
     Variable("Piece", "word", "of the move or the stop, that plays next", st_reset="0"),
@@ -28,19 +28,27 @@ ST_VARIABLES = (
     Variable("Local", "real", "variable of a piece's polynomial, -1 to 1"),
     Variable("Distance", "real", "Target less Start"),
     Variable("Sum", "real", "sum of products, and the shape"),
-    Variable("GainRow", "word", "row of gains"),
     Variable("Term", "word", "loop"),
     Variable("Row", "word", "loop"),
     Variable("Column", "word", "loop"),
 )
 """Variables; their type is a kind of `StTypes.type_of`."""
 
+ST_STOP_VARIABLES = (
+    Variable("StopPlays", "bool", "a stop plays", st_reset="FALSE"),
+    Variable("TicksLeft", "word", "ticks of the move that have not played", st_reset="0"),
+    Variable("GainRow", "word", "row of gains"),
+)
+"""More of them, where a stop can be sooner than the end of the move."""
+
 ST_ARRAYS = (
     Variable("Plant", "real", "states of the plant in a move by 1, and the shape of the last tick"),
-    Variable("StopFrom", "real", "the same when the stop began"),
     Variable("Results", "real", "change of each state, and the position, in this tick"),
 )
 """Arrays, one cell longer than the plant has states."""
 
-ST_TERMS = Variable("StopTerms", "real", "coefficients of the piece of the stop that plays, if it has pieces")
-"""An array that only stops with pieces have."""
+ST_STOP_ARRAYS = (Variable("StopFrom", "real", "states and shape when the stop began"),)
+"""The same, for stops."""
+
+ST_TERMS = Variable("StopTerms", "real", "coefficients of the piece of the stop that plays")
+"""An array that only stops in pieces have."""

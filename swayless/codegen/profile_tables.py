@@ -155,9 +155,9 @@ def move_pieces(settings: ProfileSettings) -> PlayedPieces:
     return PlayedPieces("MOVE", "Move", settings.pieces)
 
 
-def stop_pieces(settings: ProfileSettings) -> PlayedPieces:
-    """Give what a stop plays."""
-    return PlayedPieces("STOP", "Stop", settings.stop.pieces)
+def stop_pieces(settings: ProfileSettings) -> PlayedPieces | None:
+    """Give what a stop plays, if there are any."""
+    return None if settings.stop is None else PlayedPieces("STOP", "Stop", settings.stop.pieces)
 
 
 def profile_tables(settings: ProfileSettings) -> tuple[ProfileTable, ...]:
@@ -186,7 +186,7 @@ def profile_tables(settings: ProfileSettings) -> tuple[ProfileTable, ...]:
 
 
 def _tables(settings: ProfileSettings) -> Iterator[ProfileTable]:
-    number, tick_s, rest = settings.number, settings.tick_s, settings.stop.rest
+    number, tick_s = settings.number, settings.tick_s
     move, stop = move_pieces(settings), stop_pieces(settings)
     doc = "Shape of a move by 1: input less what held the plant"
     shapes = _plain_rows(move.pieces, tick_s) if move.is_raw else _piece_rows(move.pieces, tick_s)
@@ -196,12 +196,14 @@ def _tables(settings: ProfileSettings) -> Iterator[ProfileTable]:
         "Plant of the design, sampled: what a tick adds to each state, and the position; of states and shape."
     )
     yield ProfileTable("PLANT", "PlantRows", _plant_rows(settings.model), doc, number)
+    if stop is None or settings.stop is None:
+        return
     doc = "Shape of a stop, of the states and the last shape before it"
     gains = _piece_rows(stop.pieces, tick_s)
     yield ProfileTable("STOP_GAINS", "StopGains", gains, f"{doc}{_form(stop)}.", number)
     yield from _timing(stop, settings)
     doc = "Where a stop comes to rest, of the same."
-    yield ProfileTable("STOP_REST", "StopRest", [("share of the travel", rest)], doc, number)
+    yield ProfileTable("STOP_REST", "StopRest", [("share of the travel", settings.stop.rest)], doc, number)
 
 
 def _form(played: PlayedPieces) -> str:

@@ -61,7 +61,7 @@ class Operator:
         self.scalar = self.settings.number.scalar
         self.home = self.scalar(code.origin.example[0])
         self.travel = code.origin.example[1] - code.origin.example[0]
-        self.ticks, self.stop_ticks = self.settings.pieces.ticks, self.settings.stop.ticks
+        self.ticks, self.stop_ticks = self.settings.pieces.ticks, self.settings.rest_ticks
         self._block = MotionProfile(self.settings)
         self._given: list[tuple[Any, ...]] = []
         self._found: list[tuple[Any, ...]] = []

@@ -18,6 +18,7 @@ from swayless.controller.profile import (
 
 _RANDOM = np.random.default_rng(7)
 LAG = ProfileModel([[-0.1]], [0.1], [1.0], 0.0), StopLaw(Pieces([1], [[[0.7, 0.2]]]), [1.0, -0.1])
+NEVER = LAG[0], None
 MASS = (
     ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0),
     StopLaw(Pieces([1, 1], [[[0.0, -0.75, 0.125]], [[0.0, -0.25, 0.0]]]), [1.0, 0.875, 0.0]),
@@ -42,6 +43,7 @@ BLOCKS = {
     "straight, one state": (PIECES["straight"], LAG, -0.7, 3.0),
     "plain, its stop in switches": (PIECES["plain"], SHORT, 0.3, 9.0),
     "switching, its stop in lines": (PIECES["switching"], LINEAR, 1.0, 9.0),
+    "plain, no stop": (PIECES["plain"], NEVER, 0.3, 9.0),
     "polynomial, four states": (PIECES["polynomial"], FOUR, 0.4, 5.0),
 }
 """Table, plant and stop, ratio of holding, longest travel."""
@@ -60,7 +62,7 @@ def block(name, number):
     model = ProfileModel(
         held(model.change), held(model.input), held(model.output), float(held(model.feedthrough))
     )
-    stop = StopLaw(Pieces(stop.pieces.lengths, held(stop.pieces.coefficients)), held(stop.rest))
+    stop = stop and StopLaw(Pieces(stop.pieces.lengths, held(stop.pieces.coefficients)), held(stop.rest))
     ratio = float(held(hold_ratio))
     loose = Extremes((-1.0, 1.0), (0.0, 1.0))
     settings = ProfileSettings(0.01, pieces, model, stop, loose, (-64.0, 64.0), max_travel=1.0, number=kind)

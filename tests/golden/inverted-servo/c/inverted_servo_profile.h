@@ -4,12 +4,13 @@
  * Made by swayless 0.1.0 from inverted-servo.toml.
  * This file is yours: use, change and ship it as you like.
  *
- * Tick 0.005 s. A move takes 1142 of them, 5.71 s, however far it goes; a stop 386.
+ * Tick 0.005 s. A move takes 1142 ticks, 5.71 s, however far it goes.
+ * At most 386 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
  * References from -0.1 to 1.1; a move that could need more is refused.
  * Design: 0 to 1, zero-order hold; SHA-256:
- * 8d3df6f4a19e00a0020c88d11611db4624b6aa1ec29d691df376f11ec6550c0b
+ * 78a88528e94647cddd566b35eae36db670d4fcbb4af4f55ab24600ab3767f00b
  * Proved with these numbers: a move leaves at most 1e-11 of each state's largest,
- * a stop from any tick 1e-12; both keep the limits.
+ * an abort at any tick 1e-11; limits are kept. A stop rests at 0 to 1 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
  * Memory: 232 bytes of state at most, 8686 of tables.
@@ -34,7 +35,7 @@ extern "C" {
 #define INVERTED_SERVO_PROFILE_TICK_S (0.005)
 /// Ticks of a move: busy for so long, done at the next.
 #define INVERTED_SERVO_PROFILE_TICKS (1142u)
-/// Ticks of a stop: busy for so long after abort, aborted at the next.
+/// At most so many ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
 #define INVERTED_SERVO_PROFILE_STOP_TICKS (386u)
 /// States of the plant's model.
 #define INVERTED_SERVO_PROFILE_STATES (5u)
@@ -55,13 +56,13 @@ extern "C" {
 #define INVERTED_SERVO_PROFILE_START_ELSEWHERE ((uint32_t)1u << 5)
 /// Status: start is not finite or beyond the limits: the last good one holds.
 #define INVERTED_SERVO_PROFILE_START_INVALID ((uint32_t)1u << 6)
-/// Status: abort was true: a stop plays.
+/// Status: abort was true: a stop, or the end of the move, plays.
 #define INVERTED_SERVO_PROFILE_STOPPING ((uint32_t)1u << 7)
 
 /// Inputs of one tick.
 typedef struct {
     bool execute; ///< its rising edge starts a move; ignored while one runs
-    bool abort; ///< true: a running move is brought to rest, and none starts
+    bool abort; ///< true in any tick of a move: it is brought to rest; while true none starts
     double start; ///< where the move starts; before the first move the block holds there
     double target; ///< where it ends; read, as start is, when execute rises
 } inverted_servo_profile_input_t;
@@ -72,7 +73,7 @@ typedef struct {
     double position; ///< where the plant is now, by its model: the reference of a feedback
     bool busy; ///< a move or a stop plays
     bool done; ///< the target is reached; true while execute is, and for one tick at least
-    bool aborted; ///< a stop has come to rest; true as long as done would be
+    bool aborted; ///< it rests after an abort; true as long as done would be
     uint32_t status; ///< sum of the status bits
 } inverted_servo_profile_output_t;
 
@@ -87,10 +88,12 @@ typedef struct {
     double travel; ///< of the move
     uint32_t piece; ///< of the move or the stop, that plays next
     uint32_t piece_tick; ///< ticks of it that have played
+    uint32_t left; ///< ticks of the move that have not played
     uint32_t refused; ///< status bits of the last refusal
     bool executed; ///< execute of the tick before
     bool placed; ///< a move was accepted: start no longer matters at rest
     bool busy; ///< as the output
+    bool aborting; ///< abort was true: what plays ends as aborted
     bool stopping; ///< a stop plays
     bool done; ///< as the output
     bool aborted; ///< as the output

@@ -4,15 +4,16 @@
  * Made by swayless 0.1.0 from time-optimal-oscillator.toml.
  * This file is yours: use, change and ship it as you like.
  *
- * Tick 0.005 s. A move takes 58 of them, 0.29 s, however far it goes; a stop 101.
+ * Tick 0.005 s. A move takes 58 ticks, 0.29 s, however far it goes.
+ * At most 51 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
  * References from -5 to 5; a move that could need more is refused.
  * Design: 0 to 1, robust of order 1, zero-order hold; SHA-256:
- * 4c47292d03d7cc91023042fb1cd3b3e6ed89dc1f61e19278e0ae72f5e763daaa
+ * 6c6fd26c23857fbe48a0f79d37cf47a6df53dc37cfbbe35f3a19fa977365fe73
  * Proved with these numbers: a move leaves at most 1e-12 of each state's largest,
- * a stop from any tick 1e-12; both keep the limits.
+ * an abort at any tick 1e-12; limits are kept. A stop rests at 0 to 0.377 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
- * Memory: 216 bytes of state at most, 2770 of tables.
+ * Memory: 216 bytes of state at most, 1540 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -25,7 +26,7 @@ typedef double time_optimal_oscillator_number_t;
 #define TIME_OPTIMAL_OSCILLATOR_COLUMNS (TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES + 1u)
 #define TIME_OPTIMAL_OSCILLATOR_MOVE_PIECES (7u)
 #define TIME_OPTIMAL_OSCILLATOR_MOVE_TERMS (1u)
-#define TIME_OPTIMAL_OSCILLATOR_STOP_PIECES (6u)
+#define TIME_OPTIMAL_OSCILLATOR_STOP_PIECES (3u)
 #define TIME_OPTIMAL_OSCILLATOR_STOP_TERMS (10u)
 
 /* Does not compile when the state is larger than the header says. */
@@ -37,9 +38,9 @@ static const time_optimal_oscillator_number_t time_optimal_oscillator_HIGHEST = 
 static const time_optimal_oscillator_number_t time_optimal_oscillator_MAX_TRAVEL = 1125899906842624.0; /* longest travel: no rate is limited */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_LARGEST_POSITION = 1125899906842624.0; /* beyond it sums lose their meaning */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_SHAPE_LOW = -4.68262935681; /* least of the table and of every stop of it */
-static const time_optimal_oscillator_number_t time_optimal_oscillator_SHAPE_HIGH = 4.976764620786577; /* largest of the same */
+static const time_optimal_oscillator_number_t time_optimal_oscillator_SHAPE_HIGH = 4.68262935681; /* largest of the same */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_REST_LOW = 0.0; /* least share of the travel at which a stop rests */
-static const time_optimal_oscillator_number_t time_optimal_oscillator_REST_HIGH = 1.4766993989737138; /* largest of the same */
+static const time_optimal_oscillator_number_t time_optimal_oscillator_REST_HIGH = 0.37608336920934665; /* largest of the same */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_FIRST_POSITION = 0.0; /* held before any start was good */
 
 /* Shape of a move by 1: input less what held the plant, from switch to switch. */
@@ -79,152 +80,86 @@ static const time_optimal_oscillator_number_t time_optimal_oscillator_PLANT[25] 
 };
 
 /* Shape of a stop, of the states and the last shape before it, in polynomials of degree 9, highest power first. */
-static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_GAINS[300] = {
-    /* ticks 0 to 19, 0 s, power 9 */
-    4.54095085816568e-08, 1.1618821839083027e-08, 1.4872086720252373e-08, 3.9390313182777466e-09, 0.0,
-    /* ticks 0 to 19, 0 s, power 8 */
-    4.4497057240345265e-07, 1.4045492248050348e-07, 1.7978226547839963e-07, 9.799980073379158e-08, 0.0,
-    /* ticks 0 to 19, 0 s, power 7 */
-    -1.208393007787181e-05, -3.0678917728523825e-06, -3.926901471906222e-06, -1.046796920849977e-06, 0.0,
-    /* ticks 0 to 19, 0 s, power 6 */
-    -7.213528705066556e-05, -2.428592802972603e-05, -3.108598779871036e-05, -1.7486196057570222e-05, 0.0,
-    /* ticks 0 to 19, 0 s, power 5 */
-    0.001784339556659074, 0.0004475988755211233, 0.0005729265606806183, 0.00015425169021320007, 0.0,
-    /* ticks 0 to 19, 0 s, power 4 */
-    0.0043775716181344805, 0.001786268003310608, 0.002286423044181674, 0.0013906772288290405, 0.0,
-    /* ticks 0 to 19, 0 s, power 3 */
-    -0.11693827480053144, -0.028728904391956647, -0.03677299762171156, -0.010073189535191781, 0.0,
-    /* ticks 0 to 19, 0 s, power 2 */
-    0.04449823888755428, -0.018256366117563125, -0.02336814863046672, -0.02426511628932765, 0.0,
-    /* ticks 0 to 19, 0 s, power 1 */
-    2.0132858424853204, 0.47285854749069683, 0.6052589407880896, 0.17213779130267506, 0.0,
-    /* ticks 0 to 19, 0 s, power 0 */
-    -2.5909346944874456, 1.0595882853067145, -0.6437269948074046, 0.3364752135972595, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 9 */
-    -1.7335167180662431e-09, -1.2507830334456537e-09, -1.601003523088104e-09, -2.07335324318258e-09, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 8 */
-    5.696561978162518e-07, 1.5446082298323594e-07, 1.977098584799644e-07, 6.724909587993064e-08, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 7 */
-    7.388949768268239e-08, 2.851763780187335e-07, 3.650257695878861e-07, 5.55154780601648e-07, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 6 */
-    -0.00012065296226402649, -3.274950403245476e-05, -4.1919365178506686e-05, -1.3949166603850204e-05, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 5 */
-    9.836762543259558e-05, -2.544861869404917e-05, -3.257423193284691e-05, -7.646617238839143e-05, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 4 */
-    0.012253616555172736, 0.003332866327409746, 0.004266068899099423, 0.0013591686068406797, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 3 */
-    -0.02094456198963596, -0.0008150199850289411, -0.0010432255808364797, 0.0037320189608356894, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 2 */
-    -0.39302197966500013, -0.10748597198685658, -0.13758204414318015, -0.038621470521888794, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 1 */
-    0.9532978843053854, 0.12276989952818612, 0.15714547139607776, 0.0026126550316349323, 0.0,
-    /* ticks 20 to 38, 0.1 s, power 0 */
-    0.8534069453457912, 1.7505989066989118, 0.24076660057460472, 0.5293305056010188, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 9 */
-    -7.47295412593022e-08, -2.1296877611139674e-08, -2.726000385603484e-08, -1.1149388417945697e-08, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 8 */
-    5.23813101457651e-07, 1.1196385750004253e-07, 1.4331354971045552e-07, -9.713188691086634e-09, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 7 */
-    1.6770225460560337e-05, 4.835218282042056e-06, 6.189079399455704e-06, 2.484098396943913e-06, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 6 */
-    -9.322026483451226e-05, -1.887007734763215e-05, -2.4153698543619586e-05, 2.4501690847339197e-06, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 5 */
-    -0.001992492913226902, -0.0005866829847352005, -0.0007509542204615083, -0.0002912192218023426, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 4 */
-    0.008177844266482832, 0.0014938137085745713, 0.0019120815465925875, -0.00032540261750244216, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 3 */
-    0.09340000474103341, 0.028881954278347683, 0.03696890147628632, 0.013207738801500295, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 2 */
-    -0.2481035889865579, -0.03470988606433694, -0.044428654162234515, 0.017125397665262138, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 1 */
-    -0.6576134209183877, -0.25990235770976605, -0.33267501786849907, -0.07483049463618065, 0.0,
-    /* ticks 39 to 59, 0.195 s, power 0 */
-    1.0911306623796146, 1.5598017809658702, -0.0034537203636957974, 0.41287521295598756, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 9 */
-    -3.8189912128037016e-08, -9.740808566963084e-09, -1.2468232876674007e-08, -2.6717769859736013e-09, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 8 */
-    -5.818186838945315e-07, -1.7811178243657362e-07, -2.2798314175891372e-07, -1.1248113747106216e-07, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 7 */
-    9.418892847948968e-06, 2.3685806989616536e-06, 3.031783283169727e-06, 5.754433228411368e-07, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 6 */
-    0.00011186243107626584, 3.5168521415469265e-05, 4.501570753362924e-05, 2.1623200058284557e-05, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 5 */
-    -0.0012229887543201844, -0.00029931125453868063, -0.00038311840579766825, -5.4387320741576954e-05, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 4 */
-    -0.010403048236346446, -0.0034311808869348748, -0.004391911535346306, -0.0020104399509117007, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 3 */
-    0.061394774293527424, 0.013979008185646442, 0.01789313047762391, 0.00014650188125279998, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 2 */
-    0.31549358720096243, 0.11626738239980972, 0.148822249471766, 0.060933633491797985, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 1 */
-    -0.382419441749695, -0.037928471780613725, -0.048548443879185776, 0.12041308291299664, 0.0,
-    /* ticks 60 to 79, 0.3 s, power 0 */
-    -0.4269413985176063, 1.1344529151337566, -0.547900268628791, 0.42948766724251053, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 9 */
-    7.675983709581787e-09, 2.8535632672087643e-09, 3.652576505810595e-09, 2.9036095641604473e-09, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 8 */
-    -5.500255416538513e-07, -1.501082921448737e-07, -1.9213859716425924e-07, -5.982952711500875e-08, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 7 */
-    -2.544753251309932e-06, -9.519283801541826e-07, -1.2184683437309917e-06, -8.967157888171892e-07, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 6 */
-    0.00011437536627558755, 3.128654243144309e-05, 4.004677427341056e-05, 1.1526515724255117e-05, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 5 */
-    0.00048664588688520087, 0.00018336938137654554, 0.00023471280815973373, 0.00015668109839658855, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 4 */
-    -0.011201571378655763, -0.0030784880111269976, -0.0039404646542126566, -0.0009466834081479188, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 3 */
-    -0.04399837688673473, -0.01672088714348682, -0.02140273554365798, -0.012580113548066861, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 2 */
-    0.323447771900652, 0.09018112962539557, 0.11543184592049581, 0.011003395140825897, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 1 */
-    1.183198845983628, 0.4542582985789511, 0.5814506221810537, 0.286979263109632, 0.0,
-    /* ticks 80 to 98, 0.4 s, power 0 */
-    0.42869272873086023, 1.5984797950475487, 0.04605413766086096, 0.8986476979605909, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 9 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 8 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 7 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 6 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 5 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 4 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 3 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 2 */
-    0.0, 0.0, 0.0, 0.0, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 1 */
-    0.09404260411687457, 0.03215825120386556, 0.04116256154094763, 0.014267255716402548, 0.0,
-    /* ticks 99 to 100, 0.495 s, power 0 */
-    2.1603243425034533, 2.21944244742954, 0.8408863327098054, 1.2269506971958575, 0.0
+static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_GAINS[150] = {
+    /* ticks 0 to 18, 0 s, power 9 */
+    6.608225200985536e-08, 3.452793870216483e-08, 4.419565636272261e-08, 1.1429838578096428e-08, 0.0,
+    /* ticks 0 to 18, 0 s, power 8 */
+    1.0197819462758675e-06, 5.487422884171591e-07, 7.023902421181657e-07, 4.019375153203604e-07, 0.0,
+    /* ticks 0 to 18, 0 s, power 7 */
+    -1.9284887045761897e-05, -9.988829997517543e-06, -1.278570216682933e-05, -3.3369114144357183e-06, 0.0,
+    /* ticks 0 to 18, 0 s, power 6 */
+    -0.00020334986708271926, -0.0001129395217234374, -0.00014456258803033633, -8.236753788343346e-05, 0.0,
+    /* ticks 0 to 18, 0 s, power 5 */
+    0.0030987664058323553, 0.0015827119319276992, 0.0020258712727021823, 0.0005365280196792582, 0.0,
+    /* ticks 0 to 18, 0 s, power 4 */
+    0.018180810868037668, 0.010828087426758002, 0.013859951906391594, 0.007825100039811891, 0.0,
+    /* ticks 0 to 18, 0 s, power 3 */
+    -0.2170500302406765, -0.10801266436149448, -0.13825621038266644, -0.0376240316410481, 0.0,
+    /* ticks 0 to 18, 0 s, power 2 */
+    -0.36947173818976287, -0.29178838080131947, -0.3734891274257209, -0.20428210440631253, 0.0,
+    /* ticks 0 to 18, 0 s, power 1 */
+    3.7940457321357832, 1.7691286969976412, 2.264484732156978, 0.6594856051957004, 0.0,
+    /* ticks 0 to 18, 0 s, power 0 */
+    -2.953873527903017, 0.719873529814342, -1.0785618818376417, 0.5673785067021542, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 9 */
+    -9.157819475054771e-09, -5.052989014337448e-09, -6.4678674372510585e-09, -8.113587154119535e-09, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 8 */
+    9.704582255764712e-07, 5.146665054840084e-07, 6.587729341967148e-07, 2.407242848246986e-07, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 7 */
+    2.648310364510271e-06, 1.6044588234472208e-06, 2.053707375799898e-06, 2.5368166933072094e-06, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 6 */
+    -0.00022993503210243252, -0.00012270634519691493, -0.00015706412141443246, -5.585142929463196e-05, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 5 */
+    -0.00037814303439724514, -0.00027538522631216763, -0.0003524930897339842, -0.0004238026875147712, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 4 */
+    0.02610859323014528, 0.01410069431931592, 0.018048888728392987, 0.006081889474646889, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 3 */
+    0.015554249895210502, 0.019674625851302377, 0.02518352108968205, 0.02853652588666638, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 2 */
+    -0.9318633080725232, -0.5195741233975714, -0.6650548779487983, -0.19181502968891564, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 1 */
+    0.35749241658809805, -0.2942040849354287, -0.3765812287173522, -0.33705636149121015, 0.0,
+    /* ticks 19 to 36, 0.095 s, power 0 */
+    1.8190508631334203, 2.4269183840893866, 1.1064555316344051, 0.8858516344093076, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 9 */
+    -4.085054496355516e-09, -2.1797715460986815e-09, -2.7899543373556845e-09, -1.3587720032668897e-09, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 8 */
+    5.5626012648029176e-08, 2.917391549596788e-08, 3.734265406671815e-08, 3.50169458720756e-09, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 7 */
+    2.1992026328552753e-06, 1.1935098251361144e-06, 1.5276922329123044e-06, 7.247411908886581e-07, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 6 */
+    -2.1873222414650908e-05, -1.1246022103226181e-05, -1.4394908394991308e-05, -8.720828249394415e-07, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 5 */
+    -0.0006385294033301315, -0.0003566463254548648, -0.0004565072963192069, -0.0002069849476799034, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 4 */
+    0.004019935191173103, 0.0019799188257907732, 0.0025342960970903897, -3.411629972685784e-05, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 3 */
+    0.07622796239228563, 0.04519979591884656, 0.05785573877604535, 0.02381772548266148, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 2 */
+    -0.207600219246437, -0.08698830799529038, -0.11134503423399002, 0.035892420241806146, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 1 */
+    -1.7922432170564764, -1.2990632677215264, -1.6628009826835455, -0.4796043310847863, 0.0,
+    /* ticks 37 to 50, 0.185 s, power 0 */
+    -0.39711740410298163, 0.32863930035470573, -1.579341695545981, -0.1738239978959645, 0.0
 };
 
 /* Ticks of each piece. */
-static const uint16_t time_optimal_oscillator_STOP_LENGTHS[6] = {
-    20u, /* ticks 0 to 19, 0 s */
-    19u, /* ticks 20 to 38, 0.1 s */
-    21u, /* ticks 39 to 59, 0.195 s */
-    20u, /* ticks 60 to 79, 0.3 s */
-    19u, /* ticks 80 to 98, 0.4 s */
-    2u /* ticks 99 to 100, 0.495 s */
+static const uint16_t time_optimal_oscillator_STOP_LENGTHS[3] = {
+    19u, /* ticks 0 to 18, 0 s */
+    18u, /* ticks 19 to 36, 0.095 s */
+    14u /* ticks 37 to 50, 0.185 s */
 };
 
 /* Step of a piece's own variable, which goes from -1 to 1: 2 over one tick less than it has. */
-static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_STEPS[6] = {
-    0.10526315789473684, /* ticks 0 to 19, 0 s */
-    0.1111111111111111, /* ticks 20 to 38, 0.1 s */
-    0.1, /* ticks 39 to 59, 0.195 s */
-    0.10526315789473684, /* ticks 60 to 79, 0.3 s */
-    0.1111111111111111, /* ticks 80 to 98, 0.4 s */
-    2.0 /* ticks 99 to 100, 0.495 s */
+static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_STEPS[3] = {
+    0.1111111111111111, /* ticks 0 to 18, 0 s */
+    0.11764705882352941, /* ticks 19 to 36, 0.095 s */
+    0.15384615384615385 /* ticks 37 to 50, 0.185 s */
 };
 
 /* Where a stop comes to rest, of the same. */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_REST[5] = {
-    0.26176590563373003, 1.5780681715982727, 0.019927259645787933, 0.561926964136467, 0.0 /* share of the travel */
+    0.38872426652052533, 1.2935796138262345, -0.3442180943024236, 1.1120251147261107, 0.0 /* share of the travel */
 };
 
 /* Sum of the products of a table's row with the states and the shape. */
@@ -266,6 +201,7 @@ static time_optimal_oscillator_number_t time_optimal_oscillator_next_of_move(tim
     const time_optimal_oscillator_number_t *term = &time_optimal_oscillator_MOVE_SHAPES[p->piece * TIME_OPTIMAL_OSCILLATOR_MOVE_TERMS];
     const time_optimal_oscillator_number_t shape = *term;
     time_optimal_oscillator_pass(p, time_optimal_oscillator_MOVE_LENGTHS[p->piece]);
+    p->left -= 1u;
     return shape;
 }
 
@@ -300,27 +236,33 @@ static time_optimal_oscillator_number_t time_optimal_oscillator_advance(time_opt
     return results[TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES];
 }
 
-/* End what is over, and begin a stop where it is asked for. */
+/* End what is over; an abort begins a stop, unless the move is over sooner. */
 static void time_optimal_oscillator_go_on(time_optimal_oscillator_profile_t *p, bool stop)
 {
     uint32_t column;
     if (p->stopping) {
         if (p->piece >= TIME_OPTIMAL_OSCILLATOR_STOP_PIECES) {
             p->busy = false;
+            p->aborting = false;
             p->stopping = false;
             p->aborted = true;
             p->position = p->start + (p->travel * time_optimal_oscillator_row_by(time_optimal_oscillator_STOP_REST, p->stop_from));
         }
     } else if (p->busy && (p->piece >= TIME_OPTIMAL_OSCILLATOR_MOVE_PIECES)) {
         p->busy = false;
-        p->done = true;
+        p->done = !p->aborting;
+        p->aborted = p->aborting;
+        p->aborting = false;
         p->position = p->target;
-    } else if (p->busy && stop) {
-        p->stopping = true;
-        p->piece = 0u;
-        p->piece_tick = 0u;
-        for (column = 0u; column < TIME_OPTIMAL_OSCILLATOR_COLUMNS; ++column) {
-            p->stop_from[column] = p->plant[column];
+    } else if (p->busy && stop && (!p->aborting)) {
+        p->aborting = true;
+        p->stopping = p->left > TIME_OPTIMAL_OSCILLATOR_PROFILE_STOP_TICKS;
+        if (p->stopping) {
+            p->piece = 0u;
+            p->piece_tick = 0u;
+            for (column = 0u; column < TIME_OPTIMAL_OSCILLATOR_COLUMNS; ++column) {
+                p->stop_from[column] = p->plant[column];
+            }
         }
     } else {
         /* it rests, or goes on */
@@ -391,6 +333,7 @@ static void time_optimal_oscillator_begin(time_optimal_oscillator_profile_t *p, 
     p->travel = input->target - input->start;
     p->piece = 0u;
     p->piece_tick = 0u;
+    p->left = TIME_OPTIMAL_OSCILLATOR_PROFILE_TICKS;
     p->placed = true;
     p->busy = true;
     p->done = false;
@@ -413,10 +356,12 @@ void time_optimal_oscillator_profile_init(time_optimal_oscillator_profile_t *pro
     profile->travel = 0.0;
     profile->piece = 0u;
     profile->piece_tick = 0u;
+    profile->left = 0u;
     profile->refused = 0u;
     profile->executed = false;
     profile->placed = false;
     profile->busy = false;
+    profile->aborting = false;
     profile->stopping = false;
     profile->done = false;
     profile->aborted = false;
@@ -454,5 +399,5 @@ void time_optimal_oscillator_profile_step(time_optimal_oscillator_profile_t *pro
     output->busy = p->busy;
     output->done = p->done;
     output->aborted = p->aborted;
-    output->status = (status | p->refused) | (p->stopping ? TIME_OPTIMAL_OSCILLATOR_PROFILE_STOPPING : 0u);
+    output->status = (status | p->refused) | (p->aborting ? TIME_OPTIMAL_OSCILLATOR_PROFILE_STOPPING : 0u);
 }

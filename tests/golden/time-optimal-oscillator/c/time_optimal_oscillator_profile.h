@@ -4,15 +4,16 @@
  * Made by swayless 0.1.0 from time-optimal-oscillator.toml.
  * This file is yours: use, change and ship it as you like.
  *
- * Tick 0.005 s. A move takes 58 of them, 0.29 s, however far it goes; a stop 101.
+ * Tick 0.005 s. A move takes 58 ticks, 0.29 s, however far it goes.
+ * At most 51 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
  * References from -5 to 5; a move that could need more is refused.
  * Design: 0 to 1, robust of order 1, zero-order hold; SHA-256:
- * 4c47292d03d7cc91023042fb1cd3b3e6ed89dc1f61e19278e0ae72f5e763daaa
+ * 6c6fd26c23857fbe48a0f79d37cf47a6df53dc37cfbbe35f3a19fa977365fe73
  * Proved with these numbers: a move leaves at most 1e-12 of each state's largest,
- * a stop from any tick 1e-12; both keep the limits.
+ * an abort at any tick 1e-12; limits are kept. A stop rests at 0 to 0.377 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
- * Memory: 216 bytes of state at most, 2770 of tables.
+ * Memory: 216 bytes of state at most, 1540 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -34,8 +35,8 @@ extern "C" {
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_TICK_S (0.005)
 /// Ticks of a move: busy for so long, done at the next.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_TICKS (58u)
-/// Ticks of a stop: busy for so long after abort, aborted at the next.
-#define TIME_OPTIMAL_OSCILLATOR_PROFILE_STOP_TICKS (101u)
+/// At most so many ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_STOP_TICKS (51u)
 /// States of the plant's model.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES (4u)
 /// Upper bound of sizeof(time_optimal_oscillator_profile_t), in bytes; checked when compiled.
@@ -55,13 +56,13 @@ extern "C" {
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_START_ELSEWHERE ((uint32_t)1u << 5)
 /// Status: start is not finite or beyond the limits: the last good one holds.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_START_INVALID ((uint32_t)1u << 6)
-/// Status: abort was true: a stop plays.
+/// Status: abort was true: a stop, or the end of the move, plays.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_STOPPING ((uint32_t)1u << 7)
 
 /// Inputs of one tick.
 typedef struct {
     bool execute; ///< its rising edge starts a move; ignored while one runs
-    bool abort; ///< true: a running move is brought to rest, and none starts
+    bool abort; ///< true in any tick of a move: it is brought to rest; while true none starts
     double start; ///< where the move starts; before the first move the block holds there
     double target; ///< where it ends; read, as start is, when execute rises
 } time_optimal_oscillator_profile_input_t;
@@ -72,7 +73,7 @@ typedef struct {
     double position; ///< where the plant is now, by its model: the reference of a feedback
     bool busy; ///< a move or a stop plays
     bool done; ///< the target is reached; true while execute is, and for one tick at least
-    bool aborted; ///< a stop has come to rest; true as long as done would be
+    bool aborted; ///< it rests after an abort; true as long as done would be
     uint32_t status; ///< sum of the status bits
 } time_optimal_oscillator_profile_output_t;
 
@@ -87,10 +88,12 @@ typedef struct {
     double travel; ///< of the move
     uint32_t piece; ///< of the move or the stop, that plays next
     uint32_t piece_tick; ///< ticks of it that have played
+    uint32_t left; ///< ticks of the move that have not played
     uint32_t refused; ///< status bits of the last refusal
     bool executed; ///< execute of the tick before
     bool placed; ///< a move was accepted: start no longer matters at rest
     bool busy; ///< as the output
+    bool aborting; ///< abort was true: what plays ends as aborted
     bool stopping; ///< a stop plays
     bool done; ///< as the output
     bool aborted; ///< as the output
