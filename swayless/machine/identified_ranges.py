@@ -117,8 +117,11 @@ def exchanged_frequencies(place: str, old: object, band: Band) -> Exchange:
                 " by hand, or a single frequency to be exchanged"
             ]
         )
-    ends_hz = min(low_hz, band.low_hz), max(high_hz, band.high_hz)
-    return Exchange(range_ends("frequency", old, *ends_hz), f"a range, widened to hold {held}")
+    low, high = range_ends("frequency", old, band.low_hz, band.high_hz)
+    assert isinstance(old, list)  # noqa: S101 - one value alone is no range
+    first, last = (shown_value(end) for end in sorted(old, key=lambda end: parse_quantity(end, "frequency")))
+    ends = low if band.low_hz < low_hz else first, high if band.high_hz > high_hz else last
+    return Exchange(ends, f"a range, widened to hold {held}")
 
 
 def _parsed(place: str, old: object, dimension: Dimension) -> tuple[float, float]:

@@ -212,6 +212,7 @@ def _numbers(
 
 def _wrong_width(place: str, count: int, width: int) -> str:
     hint = "; decimal commas need semicolons between the columns" if count == 2 * width else ""
+    hint = "; a remark above the heads begins with #" if width == 1 else hint
     return f"{place}: has {count} cells, where there are {width} columns{hint}"
 
 

@@ -93,7 +93,11 @@ def test_ropes_are_corrected_once(tmp_path):
             "[0.17, 0.3]",
             "frequency = [0.17, 0.3] (kept; a range, and it holds 0.19812 to 0.20188 Hz)",
         ),
-        ("[0.2, 0.3]", "[0.198123, 0.3]", "(was [0.2, 0.3]; a range, widened to hold 0.19812 to 0.20188 Hz)"),
+        (
+            '[0.2, "280 mHz"]',
+            '[0.198123, "280 mHz"]',
+            '(was [0.2, "280 mHz"]; a range, widened to hold 0.19812 to 0.20188 Hz)',
+        ),
         ('["200 mHz", 0.21]', '["198.123 mHz", "201.877 mHz"]', "; two standard deviations to either side)"),
         ("0.2", "[0.198123, 0.201877]", "(was 0.2; two standard deviations to either side)"),
     ],
