@@ -85,7 +85,8 @@ def decided(
     best = max(_evidence(each.fit) for each in all_of_them)
     left = [each for each in all_of_them if _evidence(each.fit) > best - _DECISIVE]
     usual = record.quantity is Quantity.angle and first_angle_rad(left[0].fit) < LARGEST_SWING_RAD
-    taken = linear if linear in left and not usual else left[0]
+    likelier = _evidence(left[0].fit) > _evidence(linear.fit)
+    taken = linear if linear in left and not usual and not likelier else left[0]
     return taken, tuple(each for each in left if each is not taken)
 
 

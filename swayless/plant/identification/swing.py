@@ -104,8 +104,8 @@ def identify_swing(
         At least one swing.
     pendulum : bool or None
         Whether it is a load on a rope, whose large swings are slower. None takes an angle for one, unless it
-        turns faster than any rope or the record says that its frequency stays; what the record leaves
-        open widens the uncertainty.
+        turns faster than any rope or the record says that its frequency stays, and anything else for the
+        likelier; what the record leaves open widens the uncertainty.
     modes : int or None
         1 or 2; None takes as many as the record shows.
 
