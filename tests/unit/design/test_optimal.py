@@ -184,6 +184,54 @@ def test_split_poles_leave_nothing_on_either_side_and_little_between():
     assert 0.001 < left[1] < 0.1
 
 
+DAMPED = LinearPlant.from_transfer_function([2.0], [0.04, 0.01, 1.0])
+ROBUST = {
+    "first order, with a rate limit": (OSCILLATOR, Robustness(1), 40.0),
+    "second order, damped": (DAMPED, Robustness(2), None),
+    "split, damped, with a rate limit": (DAMPED, Robustness(split_ratio=0.12), 30.0),
+}
+
+
+def transform_feasible(task, ticks):
+    """Whether a program without any chain has a solution: U and its derivatives vanish at the poles.
+
+    Nothing but the transform of the command is in it, so that these plants have no poles besides.
+    """
+    change = task.held_input - task.initial_input
+    since = task.tick_s * np.arange(-ticks, 1.0)
+    (pole,) = task.plant.ringing_poles_rad_s
+    split, rows, right = task.robustness.split_ratio, [], []
+    for factor in [1.0] if split is None else [1.0 - split, 1.0 + split]:
+        for derivative in range(task.robustness.order + 1):
+            weights = (abs(pole) * since) ** derivative * np.exp(-pole * factor * since)
+            # The increments of u, the last one to what stays.
+            for part in (np.real, np.imag):
+                rows.append(part(weights[:-1] - weights[1:]))
+                right.append(-change * part(weights[-1]))
+    low, high = (limit - task.initial_input for limit in task.limits)
+    steps = np.eye(ticks + 1, ticks) - np.eye(ticks + 1, ticks, k=-1)
+    ends = change * np.eye(ticks + 1)[-1]
+    step = np.inf if task.rate_limit_per_s is None else task.rate_limit_per_s * task.tick_s
+    solved = linprog(
+        np.zeros(ticks),
+        A_ub=np.vstack([steps, -steps]) if step < np.inf else None,
+        b_ub=np.concatenate([step - ends, step + ends]) if step < np.inf else None,
+        A_eq=np.array(rows),
+        b_eq=right,
+        bounds=(low, high),
+    )
+    return solved.status == 0
+
+
+@pytest.mark.parametrize("name", ROBUST)
+def test_robust_moves_take_the_ticks_of_a_program_in_which_only_the_transform_vanishes(name):
+    plant, robustness, rate = ROBUST[name]
+    task = MoveTask(plant, 0.02, (-2.5, 3.0), -1.2, start=0.4, robustness=robustness, rate_limit_per_s=rate)
+    ticks = time_optimal(task).ticks
+    assert transform_feasible(task, ticks)
+    assert not transform_feasible(task, ticks - 1)
+
+
 def test_least_energy_is_that_of_an_independent_solution_where_no_limit_is_met():
     task = MoveTask(OSCILLATOR, 0.005, (-5.0, 5.0), 1.0)
     a, b = stepped(OSCILLATOR, 0.005)
