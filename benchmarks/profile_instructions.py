@@ -46,7 +46,7 @@ def compiled(code: ProfileCode) -> bytes:
 
 
 def main() -> None:
-    """Print the instructions of each kind of block: in a move, in a stop, at rest, and at most."""
+    """Print the instructions of each kind of block: in a move, after an abort, at rest, and at most."""
     for name in BLOCKS:
         code = block(name, "float")
         machine = Machine(compiled(code))
@@ -61,7 +61,7 @@ def main() -> None:
         taken, stops = np.array(counts), expected["status"] >= 128
         moves = expected["busy"] & ~stops
         print(
-            f"{name}: a tick of a move {int(np.median(taken[moves]))}, of a stop"
+            f"{name}: a tick of a move {int(np.median(taken[moves]))}, after an abort"
             f" {int(np.median(taken[stops]))}, at rest {int(np.median(taken[~expected['busy']]))},"
             f" at most {taken.max()}"
         )
