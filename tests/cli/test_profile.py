@@ -301,6 +301,14 @@ def test_what_was_simulated_is_written_and_drawn(run, tmp_path):
     assert (tmp_path / "loop.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_the_page_of_the_paper_says_how_to_play_figure_12(run, tmp_path):
+    page = (ROOT / "docs" / "papers" / "xu-meckl-2005.md").read_text(encoding="utf-8")
+    (line,) = re.findall(r"`swayless (profile simulate [^`]+)`", page)
+    done = run(*shlex.split(line.replace("examples/", f"{ROOT}/examples/")))
+    assert (done.code, done.err) == (0, "")
+    assert (tmp_path / "loop.csv").read_text().startswith("tick,time_s,command,reference,input_0.9_feedforward")
+
+
 def test_a_move_is_written_and_drawn_at_once(run, tmp_path):
     done = run("profile", "optimal", EXAMPLE, "-o", "move.csv", "-o", "move.pdf", "-o", "move.html")
     assert done.out.endswith("move.csv: written\nmove.pdf: written\nmove.html: written\n")

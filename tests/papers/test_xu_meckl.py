@@ -186,6 +186,7 @@ def test_fig_12_feedback_around_the_command_removes_what_10_percent_leave():
         alone = output_at_ticks(paper.oscillator(ratio), paper.fastest(paper.FIRST).command, ticks=300)
         together = paper.closed_loop(ratio)
         assert np.abs(together[158:] - 1.0).max() < 0.15 * np.abs(alone[158:] - 1.0).max()
+        assert paper.largest_input(together) > paper.LIMIT
     # On the plant as designed the feedback has nothing to do.
     assert paper.closed_loop(1.0)[58:] == pytest.approx(1.0, abs=1e-9)
 
