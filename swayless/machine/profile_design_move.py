@@ -42,7 +42,8 @@ class ProfileMove:
     Raises
     ------
     DesignError
-        If a value is out of range, or the command does not begin and end where it holds the plant.
+        If a value is out of range, the plant cannot be played to, or the command does not begin and end where
+        it holds the plant.
     """
 
     plant: LinearPlant
@@ -54,6 +55,7 @@ class ProfileMove:
     robustness: Robustness = field(default_factory=Robustness)
 
     def __post_init__(self) -> None:
+        self.plant.check()
         low, high = self.limits
         rate = self.rate_limit_per_s
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
