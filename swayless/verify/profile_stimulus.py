@@ -20,7 +20,7 @@ from swayless.verify.records import record_of
 SCALES = (1.0, -1.0, 0.37, -0.61, 1e-3)
 """Travels of whole moves, of the design's."""
 
-PHASES = 24
+PHASES = 64
 """Ticks of a move at which it is aborted: all of a short one."""
 
 MOST_TICKS = 40_000
