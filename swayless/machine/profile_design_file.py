@@ -26,7 +26,10 @@ from swayless.machine.source import read_source
 MAX_BYTES = 20_000_000
 _LINE_LENGTH = 100
 _NUMBERS = re.compile(r"\[[^\[\]{}]*\]")
-_RELATIVE = {"double": 1e-9, "float": 1e-6}
+_RELATIVE = 1e-9
+_MADE = frozenset(
+    {"generator", "guarantee", "hold_ratio", "max_travel", "extremes", "table", "model", "stop"}
+)
 
 
 def profile_design_text(design: ProfileDesign) -> str:
@@ -64,34 +67,37 @@ def load_profile_design(path: Path) -> ProfileDesign:
 
 
 def same_profile(stored: ProfileDesign, fresh: ProfileDesign) -> list[str]:
-    """Give every difference between two designs, one line each; the version of the generator is none.
+    """Give every difference between what two designs are made from, one line each.
+
+    What is made from it is proved whenever it is loaded; another mathematical library may cut pieces
+    elsewhere, and that is no difference. Nor is the version of the generator.
 
     Parameters
     ----------
     stored, fresh : ProfileDesign
-        Compared as they are stored, numbers to 1e-9, of float to 1e-6, of the largest beside them.
+        Compared as they are stored, numbers to 1e-9 of the largest beside them.
     """
-    relative = _RELATIVE[stored.settings.number.name]
-    return list(_differences("", document_of(record_of(stored)), document_of(record_of(fresh)), relative))
+    first, second = (document_of(record_of(design)) for design in (stored, fresh))
+    asked = {key: value for key, value in first.items() if key not in _MADE}
+    return list(_differences("", asked, second))
 
 
-def _differences(path: str, stored: Any, fresh: Any, relative: float) -> Iterator[str]:
+def _differences(path: str, stored: Any, fresh: Any) -> Iterator[str]:
     if isinstance(stored, dict):
         for key, value in stored.items():
-            if key != "generator":
-                yield from _differences(f"{path}.{key}" if path else key, value, fresh[key], relative)
-    elif not _same(stored, fresh, relative):
+            yield from _differences(f"{path}.{key}" if path else key, value, fresh[key])
+    elif not _same(stored, fresh):
         numbers = isinstance(stored, list)
         yield f"{path}: differs" if numbers else f"{path}: stored {stored!r}, fresh {fresh!r}"
 
 
-def _same(stored: Any, fresh: Any, relative: float) -> bool:
+def _same(stored: Any, fresh: Any) -> bool:
     if isinstance(stored, str) or stored is None or fresh is None:
         return bool(stored == fresh)
     one, other = np.array(stored, dtype=np.float64), np.array(fresh, dtype=np.float64)
     if one.shape != other.shape:
         return False
-    return bool((np.abs(one - other) <= relative * np.abs(other).max()).all())
+    return bool((np.abs(one - other) <= _RELATIVE * np.abs(other).max()).all())
 
 
 def _wrapped(numbers: str) -> str:

@@ -150,6 +150,7 @@ def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
     width, changed = (limits.high - limits.low) ** -2.0, limits.change**-2.0
     bands = np.full((2, ticks), -changed)
     bands[1] = width + 2.0 * changed
+    bands = bands[-min(2, ticks) :]  # of a single tick there is no neighbour
     itself = solveh_banded(bands, changed * np.eye(ticks, 1)[:, 0])
     through: FloatArray = model.kept @ model.system.reach(ticks)
     rows, triangle = qr(through.T, mode="economic")

@@ -162,6 +162,15 @@ def test_a_mass_is_braked_evenly():
     assert len(inputs) in {39, 40}  # from tick 39 on the move is over in 40; limits may be hit by rounding
 
 
+@pytest.mark.parametrize("change", [np.inf, 0.5])
+def test_a_plant_of_one_state_is_stopped_in_a_tick_where_limits_allow_it(change):
+    lag = shape_model(LinearPlant.from_transfer_function([3.0], [0.2, 1.0]), TICK_S)
+    stop = shortest_stop(lag, smallest_shape(lag, 40), ShapeLimits(-0.1, 1.0, change))
+    assert len(stop.gains) == 1
+    if change == np.inf:  # it rests where it is, under the input that holds it there
+        assert stop.gains[0] == pytest.approx(lag.hold_ratio * stop.rest)
+
+
 def test_a_move_that_is_over_as_soon_needs_no_stop():
     model = shape_model(MASS, TICK_S)
     assert shortest_stop(model, np.array([1.0, -1.0]), ShapeLimits(-1.1, 1.1)) is None

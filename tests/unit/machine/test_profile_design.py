@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from swayless.controller.profile import MotionProfile, ProfileInput
+from swayless.controller.profile.compression import raw_pieces
 from swayless.design.optimal import Command, LinearPlant, MoveTask, Robustness, time_optimal
 from swayless.design.playing import shape_model
 from swayless.errors import DesignError, FileError
@@ -82,6 +83,12 @@ def test_designs_that_differ_say_where(design):
     assert same_profile(design, other) == ["limit: differs"]
     named = replace(design, name="other")
     assert same_profile(design, named) == ["name: stored 'osc', fresh 'other'"]
+
+
+def test_how_a_design_is_cut_into_pieces_is_no_difference(design):
+    plain = raw_pieces(design.settings.pieces.values(design.settings.number))
+    assert same_profile(design, replace(design, settings=replace(design.settings, pieces=plain))) == []
+    assert same_profile(design, replace(design, settings=replace(design.settings, stop=None))) == []
 
 
 def broken(document, path, value):
