@@ -46,7 +46,7 @@ class Block(NamedTuple):
     prove : callable
         From code, and how it shall be proved, to verdicts.
     figures : mapping
-        How to draw each figure, by its path in the output directory.
+        How to draw each figure, or to write a page with figures, by its path in the output directory.
     facts : mapping
         What `--json` says of it.
     lines : tuple of str
@@ -57,7 +57,7 @@ class Block(NamedTuple):
     stored: tuple[str, str]
     generate: Callable[[str], tuple[GeneratedFile, ...]]
     prove: Callable[[CodeFiles, Proving], Iterator[Verdict]]
-    figures: Mapping[str, Callable[[], Figure]] = {}
+    figures: Mapping[str, Callable[[], Figure | str]] = {}
     facts: Mapping[str, Any] = {}
     lines: tuple[str, ...] = ()
 
@@ -185,17 +185,21 @@ def refuse_number(path: Path, number: str | None) -> None:
         raise OptionError([f"--number: {path} is proved for its own number type; build it in another one"])
 
 
-def drawn(figures: Mapping[str, Callable[[], Figure]]) -> dict[str, bytes]:
-    """Draw figures.
+def drawn(figures: Mapping[str, Callable[[], Figure | str]]) -> dict[str, bytes]:
+    """Draw figures, and write pages.
 
     Parameters
     ----------
     figures : mapping
-        How to draw each, by its path.
+        How to draw or write each, by its path.
     """
     from swayless.report import figure_bytes
 
-    return {path: figure_bytes(draw(), "svg") for path, draw in figures.items()}
+    made = {path: draw() for path, draw in figures.items()}
+    return {
+        path: each.encode("ascii") if isinstance(each, str) else figure_bytes(each, "svg")
+        for path, each in made.items()
+    }
 
 
 def report_check(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from swayless.cli.block_build import Block, Proving
 
@@ -15,7 +15,11 @@ if TYPE_CHECKING:
     from swayless.cli.verify import CodeFiles
     from swayless.codegen.profile_model import ProfileCode
     from swayless.machine.profile_design import ProfileDesign
+    from swayless.report.profile import PlottedMove
     from swayless.verify import Verdict
+
+Tables: TypeAlias = "Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]]"
+"""Title, heads and rows of each table."""
 
 
 def optimal_block(path: Path, directory: Path, show: Callable[[str], None]) -> Block:
@@ -30,7 +34,8 @@ def optimal_block(path: Path, directory: Path, show: Callable[[str], None]) -> B
     show : callable
         Shows progress.
     """
-    from swayless.cli.profile_figures import profile_figures
+    from swayless.cli.profile_figures import plotted
+    from swayless.cli.profile_output import found_tables
     from swayless.cli.profile_work import found_with
     from swayless.machine.profile_design import make_profile_design
     from swayless.machine.profile_design_move import ProfileMove
@@ -50,7 +55,7 @@ def optimal_block(path: Path, directory: Path, show: Callable[[str], None]) -> B
         task.robustness,
     )
     fresh = make_profile_design(request.name, path.name, move, request.number)
-    return _built(fresh, directory, profile_figures(request, found))
+    return _built(fresh, directory, plotted(request, found.command), found_tables(request, found))
 
 
 def inverted_block(path: Path, directory: Path, show: Callable[[str], None]) -> Block:
@@ -65,7 +70,7 @@ def inverted_block(path: Path, directory: Path, show: Callable[[str], None]) -> 
     show : callable
         Shows progress.
     """
-    from swayless.cli.profile_figures import move_figures, move_title
+    from swayless.cli.profile_figures import move_title
     from swayless.machine.inversion import inverted_move
     from swayless.machine.profile_design import make_profile_design
     from swayless.machine.profile_design_move import ProfileMove
@@ -78,7 +83,7 @@ def inverted_block(path: Path, directory: Path, show: Callable[[str], None]) -> 
     show("the stops")
     move = ProfileMove(plant, command, limits, start, target)
     fresh = make_profile_design(name, path.name, move, number)
-    return _built(fresh, directory, move_figures(drawn))
+    return _built(fresh, directory, drawn, [])
 
 
 def stored_profile_block(path: Path, show: Callable[[str], None]) -> Block:
@@ -94,33 +99,49 @@ def stored_profile_block(path: Path, show: Callable[[str], None]) -> Block:
     from swayless.machine.profile_design_file import load_profile_design
 
     show(f"reading {path.name}")
-    return _block(load_profile_design(path))
+    return _block(load_profile_design(path), "as stored")
 
 
-def _built(fresh: ProfileDesign, directory: Path, figures: Mapping[str, Callable[[], Figure]]) -> Block:
+def _built(fresh: ProfileDesign, directory: Path, move: PlottedMove, tables: Tables) -> Block:
+    """Make the block with its figure and its page; `tables` hold what is known of the command."""
+    from swayless.cli.profile_figures import move_figures
+
+    design, origin = _kept(fresh, directory / f"{fresh.name}.profile.json")
+    block = _block(design, origin)
+    figures: dict[str, Callable[[], Figure | str]] = {**move_figures(move)}
+    figures["figures/move.html"] = partial(_page, move, tables, design)
+    return block._replace(figures=figures)
+
+
+def _kept(fresh: ProfileDesign, path: Path) -> tuple[ProfileDesign, str]:
     """Keep the stored numbers where the fresh ones agree with them, so that code does not churn."""
     from swayless.cli.console import counted
     from swayless.errors import FileError
     from swayless.machine.profile_design_file import load_profile_design, same_profile
 
-    path = directory / f"{fresh.name}.profile.json"
     if not path.exists():
-        return _block(fresh, figures, origin="new")
+        return fresh, "new"
     try:
         stored = load_profile_design(path)
     except FileError as error:
-        text = f"replaces a stored one that is damaged: {error.problems[0]}"
-        return _block(fresh, figures, origin=text)
+        return fresh, f"replaces a stored one that is damaged: {error.problems[0]}"
     changes = same_profile(stored, fresh)
     if not changes:
-        return _block(stored, figures, origin="kept as stored")
-    text = f"replaces the stored one, {counted(len(changes), 'difference')}, the first: {changes[0]}"
-    return _block(fresh, figures, origin=text)
+        return stored, "kept as stored"
+    return fresh, f"replaces the stored one, {counted(len(changes), 'difference')}, the first: {changes[0]}"
 
 
-def _block(
-    design: ProfileDesign, figures: Mapping[str, Callable[[], Figure]] | None = None, *, origin: str = ""
-) -> Block:
+def _page(move: PlottedMove, tables: Tables, design: ProfileDesign) -> str:
+    """Write the page on a move and the block that plays it: the same, however often it is built."""
+    from swayless.cli.profile_summary import profile_lines
+    from swayless.report.profile import move_figure
+    from swayless.report.profile_page import PageTable, page_text
+
+    remarks = list(profile_lines(design, "new"))
+    return page_text(move.title, [PageTable(*table) for table in tables], remarks, move_figure(move))
+
+
+def _block(design: ProfileDesign, origin: str) -> Block:
     from swayless.cli.profile_summary import profile_facts, profile_lines, profile_origin
     from swayless.codegen.profile_files import generate_profile
     from swayless.codegen.profile_model import ProfileCode
@@ -133,7 +154,6 @@ def _block(
         stored=(f"{design.name}.profile.json", text),
         generate=partial(generate_profile, code),
         prove=partial(_verdicts, code),
-        figures=figures or {},
         facts=profile_facts(design, origin),
         lines=tuple(profile_lines(design, origin)),
     )

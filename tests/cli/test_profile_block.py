@@ -20,6 +20,7 @@ FILES = [
     f"c/{NAME}_example.c",
     f"c/{NAME}_profile.c",
     f"c/{NAME}_profile.h",
+    "figures/move.html",
     "figures/move.svg",
     f"st/FB_{NAME}_Profile.st",
     f"{NAME}.profile.json",
@@ -59,7 +60,7 @@ def test_the_example_builds_is_proved_and_can_be_checked_and_verified_again(run,
     assert document["guarantee"]["final_error_ratio"] <= 1e-9
     assert document["largest_input_ratio"] <= 1.0
     checked = run("build", EXAMPLE, "-o", out, "--check")
-    assert (checked.code, checked.out) == (0, f"{out}: 5 files as generated, 1 figure there\n")
+    assert (checked.code, checked.out) == (0, f"{out}: 5 files as generated, 2 figures there\n")
     again = run("build", EXAMPLE, "-o", out, "--no-verify")
     assert again.out.startswith(f"{SHOWN}design: kept as stored\nverified: not run (--no-verify)\n")
     code = out / "st" / f"FB_{NAME}_Profile.st"
