@@ -108,9 +108,13 @@ def test_another_move_replaces_the_stored_one_and_says_what_differs(run, tmp_pat
     file, out = tmp_path / "cart.toml", tmp_path / "out"
     file.write_text(SMALL)
     assert run("build", file, "-o", out, "--no-verify").code == 0
-    file.write_text(SMALL.replace("limit = 2.0", "limit = 2.5"))
-    built = run("build", file, "-o", out, "--no-verify")
+    file.write_text(SMALL.replace("limit = 2.0\nrate_limit = 400", "limit = 100"))
+    built = run("build", file, "-o", out, *FEW)
     assert re.search(r"design: replaces the stored one, \d+ differences, the first: limit", built.out)
+    # So fast that no stop is sooner than the end of the move: three ticks.
+    assert "; at rest at most 2 ticks after an abort\n" in built.out
+    assert "stop: none, the end of the move is always sooner\n" in built.out
+    assert "verified: ST by evaluator, LREAL" in built.out
 
 
 def test_a_move_with_a_rate_limit_is_proved_in_float(run, tmp_path):
