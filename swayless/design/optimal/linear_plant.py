@@ -134,13 +134,14 @@ class LinearPlant:
         of the loop from input to output, so that states that feed no other are in it. The loop is closed with
         the gain at which it is as fast as the poles are, so that units do not hang on those of the input.
         """
-        from scipy.linalg import matrix_balance  # here, because it is heavy and only a design needs it
+        from scipy.linalg.lapack import dgebal  # here, because it is heavy and only a design needs it
 
         speed_rad_s = _speed_rad_s(np.linalg.eigvals(self.a))
         answer = np.linalg.lstsq(speed_rad_s * np.eye(self.order) - self.a, self.b)[0]  # a pole may be there
-        gain = speed_rad_s / (abs(float(self.c @ answer)) or 1.0)
+        seen = abs(float(self.c @ answer))
+        gain = speed_rad_s / (seen if seen > 1.0 / _LARGEST else 1.0)
         loop = np.block([[self.a, gain * self.b[:, np.newaxis]], [self.c, np.zeros(1)]])
-        _, (units, _) = matrix_balance(loop, permute=False, separate=True)
+        units = dgebal(loop, scale=1)[3]
         return np.asarray(units[:-1] / units[-1], dtype=np.float64)
 
     @cached_property
@@ -214,7 +215,8 @@ class LinearPlant:
         if abs(seen @ directions[-1]) <= _BLOCKED * float(np.linalg.norm(seen)):
             raise DesignError("plant: a zero at 0: no input holds its output anywhere but at 0")
         rest = np.linalg.solve(np.vstack([held, seen]), output * np.eye(self.order + 1)[-1]) + 0.0
-        return self.state_units * rest[:-1] / moving, float(rest[-1]) / driven
+        with np.errstate(over="ignore"):  # infinite: out of reach of any limit
+            return self.state_units * rest[:-1] / moving, float(rest[-1]) / driven
 
     def check(self) -> None:
         """Refuse a plant that no command computed ahead can bring to rest.
