@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from swayless.plant.identification.record import FloatArray
+from swayless.plant.identification.sums import inner_products, sum_of_squares
 from swayless.plant.identification.swing_model import (
     COSINE,
     DECAY,
@@ -157,8 +158,9 @@ def _at(model: SwingModel, parameters: FloatArray) -> _State:
         parameters, residual, jacobian = model.settle(parameters)
     else:
         residual, jacobian = model.linearise(parameters)
-    squares = model.samples.rest + float(residual @ residual)
-    return _State(parameters, squares, jacobian.T @ jacobian, jacobian.T @ residual)
+    squares = model.samples.rest + sum_of_squares(residual)
+    normal, gradient = inner_products(jacobian, jacobian), inner_products(jacobian, residual)
+    return _State(parameters, squares, normal, gradient)
 
 
 def _tried(model: SwingModel, parameters: FloatArray) -> _State | None:

@@ -20,6 +20,7 @@ import numpy as np
 
 from swayless.plant.identification.fitting import Fit
 from swayless.plant.identification.start import fast_length, on_grid
+from swayless.plant.identification.sums import sum_of_squares
 from swayless.plant.identification.swing_model import DECAY, FREQUENCY, PER_MODE
 
 _COLOUR_SIGNIFICANCE = 0.01
@@ -147,7 +148,7 @@ def loud_part(fit: Fit) -> LoudPart | None:
     parts = np.array_split(fit.residual, _PARTS)
     if fit.residual.size < _PARTS * _FEWEST_PER_PART or fit.variance < (_AUDIBLE * fit.amplitude(0)) ** 2:
         return None
-    power = np.array([float(part @ part) / part.size for part in parts])
+    power = np.array([sum_of_squares(part) / part.size for part in parts])
     worst = int(np.argmax(power))
     ratio = float(power[worst] / max(np.delete(power, worst).mean(), _AUDIBLE**2 * power[worst]))
     count = parts[worst].size

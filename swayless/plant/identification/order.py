@@ -16,6 +16,7 @@ from swayless.plant.identification.noise import noise_near
 from swayless.plant.identification.record import FloatArray
 from swayless.plant.identification.samples import Samples
 from swayless.plant.identification.start import starts
+from swayless.plant.identification.sums import inner_products, sum_of_squares
 from swayless.plant.identification.swing_model import DECAY, FREQUENCY, PER_MODE, SwingModel
 
 CHANCE = 1e-4
@@ -61,7 +62,7 @@ def single_mode(time_s: FloatArray, value: FloatArray) -> Fit:
     """
     model = SwingModel(Samples.of_record(time_s, value))
     drift, _ = np.linalg.qr(model.drift)
-    level = value - drift @ (drift.T @ value)
+    level = value - drift @ inner_products(drift, value)
     if float(np.max(np.abs(level))) <= 1e-12 * float(np.max(np.abs(value)) or 1.0):
         raise PlantError("the record shows no swing: its values lie on a straight line")
     best = _best(model, level)
@@ -70,7 +71,7 @@ def single_mode(time_s: FloatArray, value: FloatArray) -> Fit:
             "the record shows no swing: it lasts for less than one, or has too few samples of it"
         )
     if (
-        chance_of(float(level @ level) - best.squares, best, frequencies=_frequencies(best))
+        chance_of(sum_of_squares(level) - best.squares, best, frequencies=_frequencies(best))
         > CHANCE_OF_A_SWING
     ):
         raise PlantError("the record shows no swing: nothing stands out of the noise")
@@ -116,9 +117,9 @@ def _with_bent_drift(straight: Fit) -> Fit:
     """Let the drift bend, if the record says that it does."""
     model, start = with_drift(straight, _BENT_DRIFT)
     basis, _ = np.linalg.qr(model.drift)
-    explained = basis.T @ straight.residual
+    explained = inner_products(basis, straight.residual)
     enough = model.time_s.size > model.parameter_count + 2
-    if not enough or chance_of(float(explained @ explained), straight) > _WORTH_A_LOOK:
+    if not enough or chance_of(sum_of_squares(explained), straight) > _WORTH_A_LOOK:
         return straight
     bent = fit(model, start)
     return bent if chance_of(straight.squares - bent.squares, bent) < CHANCE else straight
@@ -188,7 +189,7 @@ def _leaves_a_rest(single: Fit) -> bool:
     """Whether a mode leaves enough of the record to matter."""
     drift = single.model.drift @ single.parameters[PER_MODE:]
     swing = single.model.samples.value - single.residual - drift
-    return single.squares > _SMALLEST_REST**2 * float(swing @ swing)
+    return single.squares > _SMALLEST_REST**2 * sum_of_squares(swing)
 
 
 def turns_apart(two: Fit) -> float:

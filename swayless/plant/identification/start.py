@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from swayless.plant.identification.record import FloatArray
+from swayless.plant.identification.sums import sum_of_squares
 
 FEWEST_SWINGS = 1.0
 """Slower waves than one over the record cannot be told from offset and drift."""
@@ -91,7 +92,7 @@ def starts(time_s: FloatArray, value: FloatArray, count: int) -> list[Start]:
     for times in _DECAYS:
         decay = times / float(time_s[-1])
         window = np.exp(-decay * cells_s)
-        energy = np.abs(np.fft.rfft(grid.value * window, size)) ** 2 / float(window @ window)
+        energy = np.abs(np.fft.rfft(grid.value * window, size)) ** 2 / sum_of_squares(window)
         energy[(frequency < max(lowest, decay / _LARGEST_DECAY_RATIO)) | (frequency > grid.highest_rad_s)] = 0
         found += [Start(float(frequency[peak]), decay, float(energy[peak])) for peak in _peaks(energy)]
     return _apart(found, 2.0 * np.pi / time_s[-1])[:count]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from swayless.plant.identification.record import FloatArray
 from swayless.plant.identification.samples import Samples
+from swayless.plant.identification.sums import inner_products
 from swayless.plant.identification.waveform import Waveform, lag_s
 
 PER_MODE = 4
@@ -94,7 +95,8 @@ class SwingModel:
             linear[nonlinear : PER_MODE * self.modes : PER_MODE] = False
         columns = self.samples.left_sides(jacobian[:, linear])
         settled = parameters.copy()
-        settled[linear] += solve(columns.T @ columns, columns.T @ self._left(predicted))
+        right = inner_products(columns, self._left(predicted))
+        settled[linear] += solve(inner_products(columns, columns), right)
         residual = self._left(self._weigh(settled, jacobian))
         of_equations = np.empty_like(jacobian)
         of_equations[:, linear], of_equations[:, ~linear] = (
