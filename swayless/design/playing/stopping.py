@@ -19,6 +19,7 @@ import numpy as np
 from swayless.design.playing.shape_model import ShapeModel
 from swayless.design.shaper import FloatArray
 
+_STRIDE = 16
 _BLOCK = 1 << 22  # inputs of stops that are held in memory at once
 
 
@@ -115,9 +116,11 @@ def _keeping(model: ShapeModel, known: FloatArray, limits: ShapeLimits, ticks: i
     except np.linalg.LinAlgError:
         return None  # so short that conditions cannot be told apart
     early = known[:, : stops_needed(known.shape[1] + 1, ticks)]
-    for begin, end in blocks(early.shape[1], ticks):
-        if not (_shares(stop, early[:, begin:end], model, limits) <= 1.0).all():
-            return None
+    # Of aborts a few first: most lengths that are too short are found so.
+    for aborts in (early[:, ::_STRIDE], early):
+        for begin, end in blocks(aborts.shape[1], ticks):
+            if not (_shares(stop, aborts[:, begin:end], model, limits) <= 1.0).all():
+                return None
     return stop
 
 
@@ -168,20 +171,15 @@ def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
 
 
 def _shares(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> FloatArray:
-    """Largest share of a limit that each stop takes, shape (k,); of what the input has left to its side."""
-    held = model.hold_ratio * (stop.rest @ known)
-    inputs = np.vstack([stop.of(known), held])
-    shares = over(inputs, limits)
-    if math.isfinite(limits.change):
-        changes = np.abs(np.diff(np.vstack([known[-1], inputs]), axis=0)).max(axis=0)
-        shares = np.maximum(shares, changes / limits.change)
-    return shares
-
-
-def over(inputs: FloatArray, limits: ShapeLimits) -> FloatArray:
-    """Give how far inputs lie from the middle of the limits, as a share: above 1 where one is beyond."""
+    """Largest share of a limit that each stop takes, shape (k,); of an input, from the middle of its limits."""
+    inputs, held = stop.of(known), model.hold_ratio * (stop.rest @ known)
     middle, half = 0.5 * (limits.high + limits.low), 0.5 * (limits.high - limits.low)
-    return np.asarray(np.maximum(inputs.max(axis=0) - middle, middle - inputs.min(axis=0)) / half)
+    highest, lowest = np.maximum(inputs.max(axis=0), held), np.minimum(inputs.min(axis=0), held)
+    shares = np.maximum(highest - middle, middle - lowest) / half
+    if math.isfinite(limits.change):
+        changes = np.abs(np.diff(np.vstack([known[-1], inputs, held]), axis=0)).max(axis=0)
+        shares = np.maximum(shares, changes / limits.change)
+    return np.asarray(shares)
 
 
 def blocks(count: int, ticks: int) -> Iterator[tuple[int, int]]:
