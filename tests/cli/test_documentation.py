@@ -73,7 +73,8 @@ HEADINGS = {"design FAMILY": "design"} | {
     name: name
     for name in (
         *("init", "build", "design si", "design fd", "design bank", "design recommend"),
-        *("plot", "simulate", "identify", "profile optimal", "generate", "verify"),
+        *("plot", "simulate", "identify", "generate", "verify"),
+        *("profile optimal", "profile simulate", "profile invert", "profile tune"),
     )
 }
 
