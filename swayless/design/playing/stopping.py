@@ -171,7 +171,7 @@ def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
 
 
 def _shares(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> FloatArray:
-    """Largest share of a limit that each stop takes, shape (k,); of an input, from the middle of its limits."""
+    """Largest share of a limit that each stop takes, shape (k,); of inputs, from the middle of the limits."""
     inputs, held = stop.of(known), model.hold_ratio * (stop.rest @ known)
     middle, half = 0.5 * (limits.high + limits.low), 0.5 * (limits.high - limits.low)
     highest, lowest = np.maximum(inputs.max(axis=0), held), np.minimum(inputs.min(axis=0), held)
