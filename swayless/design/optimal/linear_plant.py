@@ -21,6 +21,7 @@ _ON_AXIS = 1e-6  # of the fastest pole: what a double pole at 0 is moved by roun
 _FASTEST_RAD_S = 1e12  # of coefficients: beyond it their powers leave the range of double
 _LARGEST = 1e100  # canonical forms of 20 states and 1e5 rad/s
 _APART = 1e-4  # of their size: nearer ringing poles cannot be told apart
+_ROUNDED = 1e-12  # of the fastest pole: more than a single pole is off by rounding
 _RINGS = 0.1  # sine of a pole's angle above which it rings: below a damping ratio of 0.995
 _LOST = 1e-9  # of the largest singular value: below it a direction is not there
 _BLOCKED = 1e-12  # of the outputs of a state of size 1: below it an output at rest is rounding
@@ -227,8 +228,7 @@ class LinearPlant:
             If a pole is unstable, or the input does not move it.
         """
         poles = self.poles_rad_s
-        fastest = float(np.abs(poles).max())
-        unstable = poles[poles.real > _ON_AXIS * fastest]
+        unstable = poles[poles.real > _off_axis(np.abs(poles))]
         if unstable.size:
             raise DesignError(
                 f"plant: unstable, pole at {shown(unstable[0])} rad/s: a command computed ahead cannot hold"
@@ -239,6 +239,17 @@ class LinearPlant:
             raise DesignError(
                 f"plant: not controllable, the input does not move the pole at {shown(lost[0])} rad/s"
             )
+
+
+def _off_axis(speeds: FloatArray) -> FloatArray:
+    """Give how far right of the imaginary axis poles of these sizes may be by rounding.
+
+    Two and more at 0 are moved by its root, of the fastest pole; any other one by a part of its own size.
+    """
+    fastest = float(speeds.max())
+    at_0 = speeds <= _ON_AXIS * fastest
+    moved = np.where(at_0 & (at_0.sum() > 1), fastest, speeds)
+    return np.asarray(np.maximum(_ON_AXIS * moved, _ROUNDED * fastest))
 
 
 def mode_vectors(plant: LinearPlant, pole: complex) -> tuple[ComplexArray, ComplexArray]:

@@ -34,6 +34,14 @@ def task(plant=OSCILLATOR, tick_s=0.01, limits=(-5.0, 5.0), target=1.0, **option
 
 CASES = {
     "unstable": (lambda: task(made([1.0], [1.0, -1.0])), "unstable, pole at 1 rad/s"),
+    "slowly unstable beside a fast lag": (
+        lambda: task(made([1.0], np.polymul([1e-4, 1.0], [1.0, -1e-3]))),
+        "unstable, pole at 0.001 rad/s",
+    ),
+    "a slow mode that grows beside a fast lag": (
+        lambda: task(made([1.0], np.polymul([1e-4, 1.0], [1.0, -0.01, 1.0]))),
+        "unstable, pole at 0.005",
+    ),
     "not controllable": (
         lambda: task(LinearPlant([[-1.0, 0.0], [0.0, -2.0]], [1.0, 0.0], [1.0, 1.0])),
         "not controllable, the input does not move the pole at -2 rad/s",
