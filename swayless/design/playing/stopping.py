@@ -19,7 +19,7 @@ import numpy as np
 from swayless.design.playing.shape_model import ShapeModel
 from swayless.design.shaper import FloatArray
 
-_STRIDE = 16
+_STRIDE = 16  # of the aborts by which lengths are rejected, before all are tried
 _BLOCK = 1 << 22  # inputs of stops that are held in memory at once
 
 
@@ -80,8 +80,8 @@ def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> 
 
     Examples
     --------
-    A mass pushed for three ticks and braked for three is stopped in two, from the first tick or the second;
-    from the third on the move itself is over in three:
+    A mass is pushed for three ticks and braked for three. After an abort at tick 1 or 2 it is stopped in
+    three; from tick 3 on the move itself is over in three:
 
     >>> from swayless.design.optimal import LinearPlant
     >>> from swayless.design.playing.shape_model import shape_model
