@@ -106,7 +106,7 @@ def optimal(
     --------
     swayless profile optimal move.toml --relax 1.5 -o move.csv -o move.svg
     swayless profile optimal crane.toml --rope-length "6 m" --target 12 --robust 1
-    swayless profile optimal --numerator 1 --denominator "1 0 0" --limit 2 --tick 0.01 --target 3
+    swayless profile optimal --numerator 1 --denominator "1 0" --limit 2 --tick 0.1 --target 3
     """
     from swayless.cli.console import print_json
     from swayless.cli.option_table import option_table

@@ -13,9 +13,10 @@ import swayless
 from swayless.cli.app import app
 from swayless.cli.design_options import COMMANDS as DESIGN_COMMANDS
 
-COMMANDS = ["init", "design", "plot", "simulate", "identify", "generate", "verify", "build"]
+COMMANDS = ["init", "design", "plot", "simulate", "identify", "profile", "generate", "verify", "build"]
 OF_DESIGN = ["FAMILY", *DESIGN_COMMANDS]
-ALL = [*COMMANDS, *(f"design {name}" for name in OF_DESIGN)]
+OF_PROFILE = ["optimal", "simulate", "invert", "tune"]
+ALL = [*COMMANDS, *(f"design {name}" for name in OF_DESIGN), *(f"profile {name}" for name in OF_PROFILE)]
 ROOT = Path(__file__).parents[2]
 
 
@@ -49,7 +50,7 @@ def test_design_lists_its_commands_and_is_an_error_alone(run):
     assert "swayless design FAMILY|COMMAND [OPTIONS]\n" in alone.err
 
 
-@pytest.mark.parametrize("group", [(), ("design",)])
+@pytest.mark.parametrize("group", [(), ("design",), ("profile",)])
 def test_the_list_of_commands_cuts_no_sentence(run, group):
     assert "..." not in run(*group, "--help").out.partition("Commands:")[2]
 
