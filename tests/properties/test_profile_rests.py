@@ -62,7 +62,7 @@ def reached(plant, tick_s, references, start):
     return state, gain
 
 
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(derandomize=True, deadline=None, max_examples=80)
 @given(
     move=moves(),
     number=st.sampled_from(["double", "float"]),
@@ -77,7 +77,7 @@ def test_moves_and_stops_of_random_plants_rest_as_promised_within_all_limits(
     block, promise = design.settings, design.guarantee
     start = float(block.number.scalar(move.start))
     target = float(block.number.scalar(start + factor * (move.target - move.start)))
-    abort_at = 1 + int(where * (block.pieces.ticks - 1)) if aborted else 10**6
+    abort_at = 1 + int(where * (block.pieces.ticks - 2)) if aborted else 10**6
     ticks = block.pieces.ticks + 1
     trace = run(block, [(tick == 0, tick == abort_at, start, target) for tick in range(ticks)])
     outputs = [output for _, output in trace]

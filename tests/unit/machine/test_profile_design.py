@@ -41,7 +41,9 @@ def test_the_example_is_played_from_seven_switches_and_rests_in_51_ticks_after_a
     assert made.settings.pieces.lengths.tolist() == [10, 1, 17, 1, 20, 1, 8]
     assert made.table_bytes == (464, 70)
     assert made.settings.rest_ticks == 51
-    assert made.stop_bytes[1] < 0.7 * made.stop_bytes[0]
+    # Another library may cut a piece a tick later: decision 31 says 1230.
+    assert made.stop_bytes[0] == 2040
+    assert 1200 <= made.stop_bytes[1] <= 1300
     assert (made.guarantee.final_error_ratio, made.guarantee.stop_error_ratio) == (1e-12, 1e-12)
     low, high = made.settings.extremes.rest
     assert low == 0.0
@@ -53,15 +55,16 @@ def test_in_float_less_is_promised(oscillator):
     assert made.table_bytes == (232, 42)
     assert 1e-8 < made.guarantee.final_error_ratio <= 1e-6
     assert 1e-8 < made.guarantee.stop_error_ratio <= 2e-6
+    assert made.stop_bytes == (1020, 186)
 
 
 def test_two_thousand_ticks_of_switching_are_two_pieces_and_their_stop_is_one():
     shape = np.repeat([1.0, -1.0], 1000)
-    move = ProfileMove(MASS, Command(0.01, shape, 0.0), (-1.05, 1.05), 0.0, 100.0)
+    move = ProfileMove(MASS, Command(0.01, shape, 0.0), (-1.0, 1.0), 0.0, 100.0)
     made = make_profile_design("mass", "mass.toml", move)
     assert made.table_bytes == (16000, 20)
-    assert made.stop_bytes[1] == 26  # a mass is braked evenly: three gains and a length
-    assert 950 <= made.settings.rest_ticks <= 1000
+    assert made.stop_bytes == (24000, 26)  # a mass is braked evenly: three gains and a length
+    assert made.settings.rest_ticks == 1000
 
 
 def test_a_stored_design_is_read_back_as_the_same_block(design, tmp_path):
