@@ -29,6 +29,7 @@ PAPER_WEIGHTS = (1e-3, 1e-3, 1.0, 1.0, 10.0)
 _ROUNDS = 60
 _HALVINGS = 12
 _CONVERGED = 1e-6  # of what is left: a step that gains less is the last
+_NOTHING = 1e-9  # of the travel: what is left of an exact record
 _LONGEST = 1.0  # of a step, in logarithms: farther, a line says nothing
 _KNOWN_TO = 0.5  # in logarithms: how well each parameter is known before the record
 
@@ -129,7 +130,10 @@ def scaled_step(drive: ElasticDrive, motion: PolynomialMotion, moves: Sequence[M
     _check_damping(drive)
     misfit = Misfit(drive, motion, moves)
     place = _Place(drive, np.zeros(drive.tuned.size), misfit.left(drive))
+    nothing = (_NOTHING * motion.travel) ** 2 * place.left.size
     for _ in range(_ROUNDS):
+        if place.left @ place.left <= nothing:
+            break
         step, noise = _gauss_newton(place, misfit.slopes(place.drive))
         reached = _along(step, misfit, place, noise)
         if reached is None:
