@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from swayless.plant.identification.record import FloatArray
-from swayless.plant.identification.sums import sum_of_squares
 
 FEWEST_SWINGS = 1.0
 """Slower waves than one over the record cannot be told from offset and drift."""
@@ -39,9 +38,10 @@ class Start(NamedTuple):
 
 
 class Grid(NamedTuple):
-    """A record on even cells; cells without samples hold 0."""
+    """A record on even cells: the sum of the samples in each, and how many they are."""
 
     value: FloatArray
+    samples: FloatArray
     cell_s: float
     highest_rad_s: float
 
@@ -61,7 +61,8 @@ def on_grid(time_s: FloatArray, value: FloatArray) -> Grid:
     even = np.max(np.abs(steps - np.round(steps))) < _EVEN
     cell_s = max(interval_s / (1 if even else _FINER), time_s[-1] / _MOST_CELLS)
     cells = np.round(time_s / cell_s).astype(np.int64)
-    return Grid(np.bincount(cells, weights=value).astype(np.float64), cell_s, np.pi / interval_s)
+    sums, counts = (np.bincount(cells, weights=each).astype(np.float64) for each in (value, None))
+    return Grid(sums, counts, cell_s, np.pi / interval_s)
 
 
 def starts(time_s: FloatArray, value: FloatArray, count: int) -> list[Start]:
@@ -92,7 +93,9 @@ def starts(time_s: FloatArray, value: FloatArray, count: int) -> list[Start]:
     for times in _DECAYS:
         decay = times / float(time_s[-1])
         window = np.exp(-decay * cells_s)
-        energy = np.abs(np.fft.rfft(grid.value * window, size)) ** 2 / sum_of_squares(window)
+        # White noise has the energy of one sample then, wherever samples are missing or share a cell.
+        noise = float(np.einsum("i,i,i", grid.samples, window, window))
+        energy = np.abs(np.fft.rfft(grid.value * window, size)) ** 2 / noise
         energy[(frequency < max(lowest, decay / _LARGEST_DECAY_RATIO)) | (frequency > grid.highest_rad_s)] = 0
         found += [Start(float(frequency[peak]), decay, float(energy[peak])) for peak in _peaks(energy)]
     return _apart(found, 2.0 * np.pi / time_s[-1])[:count]
