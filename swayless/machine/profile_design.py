@@ -62,7 +62,7 @@ class ProfileDesign:
     @property
     def numbered(self) -> NumberedMove:
         """The move in the numbers of the block."""
-        return NumberedMove(self.move, self.settings.number)
+        return NumberedMove(self.move, self.settings.number, self.settings.hold_ratio)
 
     @property
     def table_bytes(self) -> tuple[int, int]:

@@ -24,11 +24,13 @@ def problems_of(design: ProfileDesign) -> Iterator[tuple[str, str]]:
     except DesignError as error:
         yield "plant", str(error)
         return
-    if own.order != settings.model.order or not _near(settings.model, own, _NEAR[settings.number.name]):
+    near = _NEAR[settings.number.name]
+    if own.order != settings.model.order or not _near(settings.model, own, near):
         yield "model", "is not the one of this plant, tick and robustness"
         return
-    if settings.hold_ratio != numbered.hold_ratio:
-        yield "hold_ratio", f"must be {numbered.hold_ratio!r}, as of this plant"
+    held = numbered.model.hold_ratio
+    if not abs(settings.hold_ratio - held) <= near * abs(held):
+        yield "hold_ratio", f"= {settings.hold_ratio!r}: must be {held!r}, as of this plant"
     if settings.pieces.ticks != design.move.command.values.size:
         yield "table", f"lasts {settings.pieces.ticks} ticks, the command {design.move.command.values.size}"
         return

@@ -26,10 +26,14 @@ class NumberedMove:
     move : ProfileMove
     number : NumberType
         ``double`` or ``float``.
+    stored_hold_ratio : float or None
+        What holds the plant per unit of position, of a design that has one: another mathematical library may
+        find another last digit.
     """
 
     move: ProfileMove
     number: NumberType
+    stored_hold_ratio: float | None = None
 
     @cached_property
     def model(self) -> ShapeModel:
@@ -42,7 +46,8 @@ class NumberedMove:
     @property
     def hold_ratio(self) -> float:
         """Input per unit of position that holds the plant."""
-        return self.rounded(self.model.hold_ratio)
+        stored = self.stored_hold_ratio
+        return self.rounded(self.model.hold_ratio) if stored is None else stored
 
     @property
     def start(self) -> float:

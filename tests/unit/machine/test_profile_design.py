@@ -94,6 +94,15 @@ def test_how_a_design_is_cut_into_pieces_is_no_difference(design):
     assert same_profile(design, replace(design, settings=replace(design.settings, stop=None))) == []
 
 
+def test_last_digits_of_another_library_are_no_problem(stored_text, tmp_path):
+    document = json.loads(stored_text)
+    document["hold_ratio"] = np.nextafter(1.0, 2.0)
+    document["plant"]["a"][0][1] *= 1.0 + 1e-14
+    file = tmp_path / "other.profile.json"
+    file.write_text(json.dumps(document), encoding="ascii")
+    assert load_profile_design(file).settings.hold_ratio == np.nextafter(1.0, 2.0)
+
+
 def broken(document, path, value):
     *way, last = path
     for key in way:
@@ -122,7 +131,7 @@ def broken(document, path, value):
         (["command", "hold"], "second-order", "command.hold"),
         (["command", "values"], [], "command.values"),
         (["command", "values", 3], "x", 'command.values[3] = "x": must be a number'),
-        (["hold_ratio"], 1.5, "hold_ratio: must be 1.0, as of this plant"),
+        (["hold_ratio"], 1.5, "hold_ratio: = 1.5: must be 1.0, as of this plant"),
         (["max_travel"], -1.0, "max_travel: profile: max_travel = -1.0: must be above 0"),
         (["extremes", "shape"], [-4.7, 4.7], "extremes: must be"),
         (["extremes", "rest"], [0.0, 0.1], "extremes: must be"),
