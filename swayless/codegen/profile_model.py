@@ -199,8 +199,15 @@ class ProfileCode:
 
     @property
     def st_variables(self) -> tuple[Variable, ...]:
-        """Variables of the block, their type as a kind."""
-        return ST_VARIABLES if self.stop is None else (*ST_VARIABLES, *ST_STOP_VARIABLES)
+        """Variables that the block uses, their type as a kind."""
+        needs = {
+            "Local": self.has_polynomials,
+            "PieceTick": self.counts_ticks,
+            "Term": self.move.degree > 1 or self.stop_terms > 1,
+            "GainRow": self.stop_terms > 1,
+        }
+        every = ST_VARIABLES if self.stop is None else (*ST_VARIABLES, *ST_STOP_VARIABLES)
+        return tuple(variable for variable in every if needs.get(variable.st_name, True))
 
     @property
     def st_arrays(self) -> tuple[Variable, ...]:
@@ -246,6 +253,11 @@ class ProfileCode:
     def has_polynomials(self) -> bool:
         """Whether a piece of either has a variable."""
         return any(played.degree for played in self.played)
+
+    @property
+    def counts_ticks(self) -> bool:
+        """Whether a piece may last longer than a tick."""
+        return not all(played.is_raw for played in self.played)
 
     @property
     def stop_terms(self) -> int:

@@ -1,6 +1,7 @@
 """Generated motion profiles equal the reference in every bit: C and Structured Text, double and float."""
 
 import dataclasses
+import re
 import sys
 
 import numpy as np
@@ -136,6 +137,15 @@ def test_the_header_states_memory_and_facts_and_a_smaller_state_is_refused():
     assert " * One line of facts.\n" in header.text
     assert "state is larger than the header says" in source.text
     assert "input = { false, false, 0.5, 1.5 }" in example.text
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+def test_structured_text_declares_nothing_that_it_does_not_use(name):
+    text = generate_profile(block(name, "double"), "st")[0].text
+    declared = re.findall(r"^  (\w+) : ", text, re.MULTILINE)
+    assert len(declared) > 30
+    code = re.sub(r"\(\*.*?\*\)", "", text, flags=re.DOTALL)
+    assert [each for each in declared if len(re.findall(rf"\b{each}\b", code)) < 2] == []
 
 
 def test_a_plant_that_stays_by_itself_starts_anywhere():
