@@ -53,6 +53,18 @@ def identify_periods(
     >>> round(mode.frequency_hz, 5), round(mode.frequency_hz_std, 5)
     (0.16393, 0.00351)
     """
+    _check(reading_s, swings, amplitude_rad)
+    count = reading_s.size
+    rounding_s = resolution_s / math.sqrt(12.0)
+    one_std = REACTION_S if count == 1 else float(np.std(reading_s, ddof=1)) * student_ratio(count - 1)
+    period_s = float(reading_s.mean()) / swings
+    std_s = math.hypot(one_std / math.sqrt(count), rounding_s) / swings
+    slower = 1.0 / _mean(1.0, math.cos(amplitude_rad / 2.0))
+    return mode_of_period(period_s / slower, std_s / slower, None)
+
+
+def _check(reading_s: FloatArray, swings: int, amplitude_rad: float) -> None:
+    """Refuse values that are out of range."""
     if reading_s.ndim != 1 or not (
         reading_s.size and np.isfinite(reading_s).all() and (reading_s > 0.0).all()
     ):
@@ -66,13 +78,6 @@ def identify_periods(
             f"readings from {reading_s.min():g} to {reading_s.max():g} s differ by more than half a swing:"
             " must be the same number of swings each"
         )
-    count = reading_s.size
-    rounding_s = resolution_s / math.sqrt(12.0)
-    one_std = REACTION_S if count == 1 else float(np.std(reading_s, ddof=1)) * student_ratio(count - 1)
-    period_s = float(reading_s.mean()) / swings
-    std_s = math.hypot(one_std / math.sqrt(count), rounding_s) / swings
-    slower = 1.0 / _mean(1.0, math.cos(amplitude_rad / 2.0))
-    return mode_of_period(period_s / slower, std_s / slower, None)
 
 
 def _mean(larger: float, smaller: float) -> float:

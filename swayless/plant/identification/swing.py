@@ -128,12 +128,7 @@ def identify_swing(
     >>> abs(mode.frequency_hz - 1.5 / (2.0 * np.pi)) < 2.0 * mode.frequency_hz_std < 1e-4
     True
     """
-    if pendulum and record.quantity == "value":
-        raise PlantError("a load on a rope is corrected for large swings: say what unit the record is in")
-    if modes not in {None, *range(1, MOST_MODES + 1)}:
-        raise PlantError(f"modes = {modes!r}: must be 1 or 2")
-    if modes == MOST_MODES and record.time_s.size <= PER_MODE * MOST_MODES + 4:
-        raise PlantError(f"{record.time_s.size} samples are too few for two modes")
+    _check(record, pendulum, modes)
     time_s = record.time_s - record.time_s[0]
     taken, others = decided(single_mode(time_s, record.value), record, pendulum=pendulum, modes=modes)
     single, double = taken.single, taken.double
@@ -147,6 +142,16 @@ def identify_swing(
         return found
     kinds = {each.fit.model.waveform is None for each in (taken, *others)}
     return _covering_all(found, [_modes(other.fit) for other in others], decided=len(kinds) == 1)
+
+
+def _check(record: SwingRecord, pendulum: bool | None, modes: int | None) -> None:
+    """Refuse what cannot be asked of a record."""
+    if pendulum and record.quantity == "value":
+        raise PlantError("a load on a rope is corrected for large swings: say what unit the record is in")
+    if modes not in {None, *range(1, MOST_MODES + 1)}:
+        raise PlantError(f"modes = {modes!r}: must be 1 or 2")
+    if modes == MOST_MODES and record.time_s.size <= PER_MODE * MOST_MODES + 4:
+        raise PlantError(f"{record.time_s.size} samples are too few for two modes")
 
 
 def _not_told_apart(double: Fit, record: SwingRecord) -> str:
