@@ -22,6 +22,9 @@ from swayless.design.shaper import FloatArray
 
 ComplexArray = NDArray[np.complex128]
 
+_TERMS = 18
+"""Of the series: 0.5^19 / 19! is below rounding."""
+
 _PLACES = (Fraction(0), Fraction(1, 2), Fraction(1))
 
 
@@ -49,7 +52,7 @@ class MotionResponse:
 
     def on_grid(self, first_s: float, step_s: float, count: int) -> FloatArray:
         """Give the response at times first, first + step, ...; shape (count,)."""
-        return self.motion.travel * (self.output @ self._states(first_s, step_s, count)).real
+        return self._read(self.output, self._states(first_s, step_s, count))
 
     def averages(self, step_s: float, count: int) -> FloatArray:
         """Give its mean over each of `count` steps from 0 on; the motion has to end between two steps."""
@@ -58,7 +61,11 @@ class MotionResponse:
         share = step_s / self.motion.duration_s
         block[:size, :size], block[:size, size:] = self.generator * share, np.eye(size)
         mean = self.output @ _expm(block)[:size, size:]
-        return self.motion.travel * (mean @ self._states(0.0, step_s, count)).real
+        return self._read(mean, self._states(0.0, step_s, count))
+
+    def _read(self, row: ComplexArray | FloatArray, states: ComplexArray) -> FloatArray:
+        """Give an output of states."""
+        return np.asarray(self.motion.travel * np.einsum("i,ik->k", row, states).real)
 
     def lags(self, step_s: float, count: int) -> ComplexArray:
         """Give the lags from the end of the motion on, less where they go; shape (order, count)."""
@@ -169,7 +176,7 @@ def _walk(generator: ComplexArray, state: ComplexArray, count: int) -> ComplexAr
     """Give a state and what a generator makes of it in 1, 2, ... steps, shape (n, count), by doubling."""
     states, power = state[:, np.newaxis], _expm(generator)
     while states.shape[1] < count:
-        states, power = np.hstack([states, power @ states]), power @ power
+        states, power = np.hstack([states, _product(power, states)]), _product(power, power)
     return states[:, :count]
 
 
@@ -180,6 +187,27 @@ def _in_units_of(polynomial: FloatArray, duration_s: float) -> FloatArray:
 
 
 def _expm(matrix: ComplexArray) -> ComplexArray:
-    from scipy.linalg import expm  # here, because it is heavy and only a design needs it
+    """Give the exponential of a small matrix, by the series of a 2^k-th of it, squared k times.
 
-    return np.asarray(expm(matrix), dtype=np.complex128)
+    Not scipy's: it starts threads, as large products here do, which takes far longer than the work itself
+    where other programs run too.
+
+    References
+    ----------
+    Moler and Van Loan (2003), "Nineteen dubious ways to compute the exponential of a matrix", method 3.
+    """
+    norm = float(np.abs(matrix).sum(axis=0).max(initial=0.0))
+    halvings = max(0, int(np.ceil(np.log2(max(norm, 1e-300)))) + 1)
+    scaled = matrix / 2.0**halvings
+    unit = np.eye(matrix.shape[0], dtype=np.complex128)
+    total = unit
+    for power in range(_TERMS, 0, -1):
+        total = unit + _product(scaled, total) / power
+    for _ in range(halvings):
+        total = _product(total, total)
+    return total
+
+
+def _product(one: ComplexArray, other: ComplexArray) -> ComplexArray:
+    """Multiply two matrices without threads."""
+    return np.asarray(np.einsum("ij,jk->ik", one, other), dtype=np.complex128)
