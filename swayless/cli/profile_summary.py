@@ -28,12 +28,14 @@ def profile_origin(design: ProfileDesign, text: str) -> ProfileOrigin:
 
     move, promise = design.move, design.guarantee
     robust = f", robust of order {move.robustness.order}" if move.robustness.order else ""
+    off = _where_off(design)
     facts = (
         f"Design: {move.start:.6g} to {move.target:.6g}{robust}, {move.command.hold} hold; SHA-256:",
         hashlib.sha256(text.encode("ascii")).hexdigest(),
         f"Proved with these numbers: a move leaves at most {promise.final_error_ratio:g} of each state's"
         " largest,",
-        f"an abort at any tick {_after_aborts(design):g}; limits are kept. {_where_stops_rest(design)}",
+        f"an abort at any tick {_after_aborts(design):g}{off}.",
+        f"Limits are kept. {_where_stops_rest(design)}",
     )
     return ProfileOrigin(design.name, design.generator, design.source, facts, (move.start, move.target))
 
@@ -58,6 +60,8 @@ def profile_facts(design: ProfileDesign, origin: str) -> dict[str, Any]:
         "limit": list(settings.limits),
         "hold_ratio": settings.hold_ratio,
         "max_travel": settings.max_travel,
+        "robust_order": design.move.robustness.order,
+        "split_ratio": design.move.robustness.split_ratio,
         "guarantee": {
             "final_error_ratio": promise.final_error_ratio,
             "stop_error_ratio": promise.stop_error_ratio,
@@ -90,12 +94,18 @@ def profile_lines(design: ProfileDesign, origin: str) -> Iterator[str]:
     share = per_cent(_largest_input_ratio(design))
     yield (
         f"proved: a move leaves at most {promise.final_error_ratio:g} of each state's largest, an abort at"
-        f" any tick {_after_aborts(design):g}; both take up to {share} of the limits"
+        f" any tick {_after_aborts(design):g}{_where_off(design)}; both take up to {share} of the limits"
     )
     if settings.stop is not None:
         yield _where_stops_rest(design)[:-1]
     if origin != "new":
         yield f"design: {origin}"
+
+
+def _where_off(design: ProfileDesign) -> str:
+    """Say for which plant the promise is, where poles were split: the nominal one swings a little."""
+    split = design.move.robustness.split_ratio
+    return "" if split is None else f", where a frequency is {per_cent(split)} off"
 
 
 def _after_aborts(design: ProfileDesign) -> float:

@@ -10,7 +10,8 @@
  * Design: 0 to 1, zero-order hold; SHA-256:
  * 78a88528e94647cddd566b35eae36db670d4fcbb4af4f55ab24600ab3767f00b
  * Proved with these numbers: a move leaves at most 1e-11 of each state's largest,
- * an abort at any tick 1e-11; limits are kept. A stop rests at 0 to 1 of the travel.
+ * an abort at any tick 1e-11.
+ * Limits are kept. A stop rests at 0 to 1 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
  * Memory: 232 bytes of state at most, 8686 of tables.

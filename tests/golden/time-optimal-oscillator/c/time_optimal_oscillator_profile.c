@@ -10,7 +10,8 @@
  * Design: 0 to 1, robust of order 1, zero-order hold; SHA-256:
  * 6c6fd26c23857fbe48a0f79d37cf47a6df53dc37cfbbe35f3a19fa977365fe73
  * Proved with these numbers: a move leaves at most 1e-12 of each state's largest,
- * an abort at any tick 1e-12; limits are kept. A stop rests at 0 to 0.377 of the travel.
+ * an abort at any tick 1e-12.
+ * Limits are kept. A stop rests at 0 to 0.377 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
  * Memory: 216 bytes of state at most, 1540 of tables.
