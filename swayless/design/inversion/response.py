@@ -176,7 +176,7 @@ def _walk(generator: ComplexArray, state: ComplexArray, count: int) -> ComplexAr
     """Give a state and what a generator makes of it in 1, 2, ... steps, shape (n, count), by doubling."""
     states, power = state[:, np.newaxis], _expm(generator)
     while states.shape[1] < count:
-        states, power = np.hstack([states, _product(power, states)]), _product(power, power)
+        states, power = np.hstack([states, np.einsum("ij,jk->ik", power, states)]), power @ power
     return states[:, :count]
 
 
@@ -202,12 +202,7 @@ def _expm(matrix: ComplexArray) -> ComplexArray:
     unit = np.eye(matrix.shape[0], dtype=np.complex128)
     total = unit
     for power in range(_TERMS, 0, -1):
-        total = unit + _product(scaled, total) / power
+        total = unit + scaled @ total / power
     for _ in range(halvings):
-        total = _product(total, total)
+        total = total @ total
     return total
-
-
-def _product(one: ComplexArray, other: ComplexArray) -> ComplexArray:
-    """Multiply two matrices without threads."""
-    return np.asarray(np.einsum("ij,jk->ik", one, other), dtype=np.complex128)
