@@ -37,7 +37,7 @@ FOLDER = Path(__file__).with_suffix("")
 GAIN, INTEGRAL_TIME_S = 0.05, 0.2
 """Of the loop; the paper's text does not give its own."""
 
-OTHER_GAINS = ((0.05, 0.5), (0.02, 1.0), (0.1, 0.3), (0.2, 0.5), (0.01, 0.1))
+OTHER_GAINS = ((0.05, 0.5), (0.02, 1.0), (0.2, 0.5))
 TICK_S = 0.01
 MEASURED_S = 4.0
 """T_f of eq 8: the motion, and as long again."""
