@@ -79,6 +79,8 @@ def _of_swing(swing: IdentifiedSwing, read: ReadRecord) -> Iterator[str]:
             f"too short: {swing.swings:.2g} swings, in which frequency, damping and drift are hard to tell"
             " apart: record ten or more"
         )
+    if read.time_unit_is_assumed:
+        yield "time: nothing says its unit; taken for seconds"
     if read.missing:
         yield f"missing: {counted(read.missing, 'sample')} without a value, left out"
     if len(swing.modes) == 1:

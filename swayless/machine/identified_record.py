@@ -5,7 +5,7 @@ Not for: reading the table (`swayless.machine.identified_table`) or finding the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,9 @@ from swayless.machine.identified_units import TIME_UNITS, VALUE_UNITS, Head, uni
 from swayless.machine.problems import shown
 from swayless.plant.identification import Quantity, SwingRecord
 from swayless.plant.identification.record import FloatArray
+
+_LATEST_S = 1e10
+"""Seconds since 1970 in the year 2286: no clock shows more, unless it counts something shorter."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,8 @@ class ReadRecord:
         Samples without a value.
     rope_length_m : float or None
         From a rope column.
+    time_unit_is_assumed : bool
+        Whether nothing says that the times are seconds, as which they were taken.
     """
 
     record: SwingRecord
@@ -65,6 +70,7 @@ class ReadRecord:
     unit_size: float
     missing: int
     rope_length_m: float | None = None
+    time_unit_is_assumed: bool = False
 
 
 def read_swings(table: RecordTable, reading: Reading) -> list[ReadRecord]:
@@ -80,7 +86,8 @@ def read_swings(table: RecordTable, reading: Reading) -> list[ReadRecord]:
     quantity, size = _quantity(table, reading, table.heads[value])
     ropes = np.zeros(time_s.size) if rope is None else _ropes(table, rope)
     groups = np.flatnonzero(np.concatenate([[True], np.diff(ropes) != 0.0]))
-    return [
+    assumed = reading.rate_hz is None and table.heads[_time_column(table, reading)].unit is None
+    records = [
         _record(
             table,
             reading,
@@ -92,6 +99,7 @@ def read_swings(table: RecordTable, reading: Reading) -> list[ReadRecord]:
         )
         for first, last in zip(groups, [*groups[1:], time_s.size], strict=True)
     ]
+    return [replace(each, time_unit_is_assumed=assumed) for each in records]
 
 
 def read_peaks(table: RecordTable, reading: Reading) -> tuple[FloatArray, FloatArray, bool]:
@@ -154,9 +162,9 @@ def _columns(table: RecordTable, reading: Reading) -> tuple[int | None, FloatArr
     if reading.rate_hz is None:
         column = _time_column(table, reading)
         taken.append(column)
-        unit = table.heads[column].unit
-        time_s = table.values[:, column] * TIME_UNITS.get(unit or "s", 1.0)
+        time_s = table.values[:, column] * _time_unit_s(table, reading, column)
     else:
+        _refuse_times(table)
         time_s = np.arange(table.line.size) / reading.rate_hz
     if reading.column is not None:
         return rope, time_s, _column(table, reading.column, "--column")
@@ -168,6 +176,33 @@ def _columns(table: RecordTable, reading: Reading) -> tuple[int | None, FloatArr
         what = f"which one is the swing? give --column: {names}" if left else "there is no column of values"
         raise FileError([f"{table.path}: {what}"])
     return rope, time_s, left[0]
+
+
+def _time_unit_s(table: RecordTable, reading: Reading, column: int) -> float:
+    """Give the unit of the times; what stands in its place and is none is not taken for seconds."""
+    head = table.heads[column]
+    place, known = f"{table.path}: line {table.head_line}: {shown(head.text)}", ", ".join(TIME_UNITS)
+    unknown = head.unknown or (None if reading.time else head.last_word)
+    if unknown is not None:
+        hint = "" if head.unknown else f"; or give --time {column + 1} if it does hold seconds"
+        raise FileError([f"{place}: {shown(unknown)} is no unit of time; known: {known}{hint}"])
+    if head.unit is not None and head.unit not in TIME_UNITS:
+        raise FileError([f"{place}: {shown(head.unit)} is no unit of time; known: {known}"])
+    if head.unit is None and np.nanmax(np.abs(table.values[:, column]), initial=0.0) > _LATEST_S:
+        raise FileError([f'{place}: too large for seconds: say their unit: "time [ms]"; known: {known}'])
+    return TIME_UNITS[head.unit or "s"]
+
+
+def _refuse_times(table: RecordTable) -> None:
+    """Refuse a rate beside times, which say something else or the same."""
+    times = [head.text for head in table.heads if head.is_time]
+    if times:
+        raise FileError(
+            [
+                f"{table.path}: line {table.head_line}: {shown(times[0])} holds the times: --rate is for a"
+                " file without; leave it out, or rename that column"
+            ]
+        )
 
 
 def _time_column(table: RecordTable, reading: Reading) -> int:
@@ -217,12 +252,15 @@ def _quantity(table: RecordTable, reading: Reading, head: Head) -> tuple[Quantit
 
 def _ropes(table: RecordTable, column: int) -> FloatArray:
     """Give the rope of every sample in m."""
-    quantity, size = VALUE_UNITS.get(table.heads[column].unit or "m", (Quantity.value, 1.0))
+    head = table.heads[column]
+    quantity, size = VALUE_UNITS.get(head.unknown or head.unit or "m", (Quantity.value, 1.0))
     ropes = table.values[:, column] * size
     wrong = np.flatnonzero(~((ropes > 0.0) & np.isfinite(ropes)))
     problems = [f"{_line(table, index)}: rope length = {ropes[index]:g}: must be > 0" for index in wrong]
     if quantity is not Quantity.position:
-        problems = [f"{table.path}: {shown(table.heads[column].text)}: is not a length"]
+        problems = [
+            f"{table.path}: line {table.head_line}: {shown(head.text)}: is not a length that is known"
+        ]
     refuse_lines(table.path, problems)
     return np.asarray(ropes)
 

@@ -53,12 +53,15 @@ class RecordTable:
         NaN where a value is missing.
     line : ndarray of int, shape (rows,)
         Where each row stands in the file, from 1.
+    head_line : int
+        Where the heads stand, or the first row in a file without.
     """
 
     path: Path
     heads: tuple[Head, ...]
     values: FloatArray
     line: NDArray[np.int64]
+    head_line: int
 
 
 def load_table(path: Path) -> RecordTable:
@@ -94,13 +97,14 @@ def load_table(path: Path) -> RecordTable:
     if values is None:
         values = _numbers(path, number[first:], _split(contents[first:], delimiter), width, delimiter)
     heads = tuple(
-        _head(names[column] if names else f"column {column + 1}", units[column] if units else None)
+        _head(names[column] if names else f"column {column + 1}", units[column] if units else "")
         for column in range(width)
     )
     filled = [
         column for column in range(width) if heads[column].text or not np.isnan(values[:, column]).all()
     ]
-    return RecordTable(path, tuple(heads[column] for column in filled), values[:, filled], number[first:])
+    kept_heads = tuple(heads[column] for column in filled)
+    return RecordTable(path, kept_heads, values[:, filled], number[first:], int(number[0]))
 
 
 def _text(path: Path) -> str:
@@ -161,7 +165,7 @@ def _is_number(cell: str, delimiter: str | None) -> bool:
     )
 
 
-def _heads(rows: list[list[str]], delimiter: str | None) -> tuple[list[str], list[str | None], int]:
+def _heads(rows: list[list[str]], delimiter: str | None) -> tuple[list[str], list[str], int]:
     """Give names and units above the numbers, and the row in which the numbers begin."""
     if any(_is_number(cell, delimiter) and cell.strip() for cell in rows[0]):
         return [], [], 0
@@ -169,15 +173,16 @@ def _heads(rows: list[list[str]], delimiter: str | None) -> tuple[list[str], lis
     if delimiter is None:
         names = _NAME_AND_UNIT.findall(" ".join(names))
     if len(rows) > 1 and len(rows[1]) == len(names):
-        units = [unit_named(cell.strip(" []()")) for cell in rows[1]]
-        if any(units):
+        units = [cell.strip(" []()-") for cell in rows[1]]
+        if any(unit_named(unit) for unit in units):
             return names, units, 2
     return names, [], 1
 
 
-def _head(text: str, unit: str | None) -> Head:
-    head = read_head(text)
-    return head if unit is None else head._replace(unit=unit)
+def _head(text: str, unit: str) -> Head:
+    """Read a head whose unit may stand below it."""
+    head, known = read_head(text), unit_named(unit)
+    return head._replace(unit=known, unknown=None if known else unit) if unit else head
 
 
 def _plain_numbers(lines: Sequence[str], width: int, delimiter: str | None) -> FloatArray | None:

@@ -95,6 +95,58 @@ def test_heads_say_what_was_measured(read, head, quantity, size):
     assert found.record.time_s[-1] == pytest.approx(0.00475 if "ms" in head else 4.75)
 
 
+@pytest.mark.parametrize(
+    ("head", "unit_s"),
+    [
+        ("millis", 1e-3),
+        ("time_msec", 1e-3),
+        ("tMs", 1e-3),
+        ("timestamp_ns", 1e-9),
+        ("time [µs]", 1e-6),
+        ("time [minutes]", 60.0),
+        ("hours", 3600.0),
+        ("time in days", 86400.0),
+        ("time_stamp", 1.0),
+    ],
+)
+def test_heads_say_what_times_are_in(read, head, unit_s):
+    (found,) = read(f"{head},x\n{ROWS}")
+    np.testing.assert_allclose(found.record.time_s, TIMES * unit_s, rtol=1e-15)
+    assert found.time_unit_is_assumed is (head == "time_stamp")
+
+
+@pytest.mark.parametrize("head", ["time [10ms]", "time / fortnights", "Zeit in Jahren", "time_cs", "t\nfoo"])
+def test_a_unit_of_time_that_is_not_known_is_not_taken_for_seconds(read, head):
+    text = f"{head},x\n{ROWS}" if "\n" not in head else f"t,x\nfoo,rad\n{ROWS}"
+    (problem,) = refusal(read, text)
+    assert problem.startswith("line 1: ")
+    assert "is no unit of time; known: s, ms, us, min, ns, h, d" in problem
+    # Only what is joined to a name may be a word: whoever names the column says that it holds seconds.
+    assert ("--time 1" in problem) is (head == "time_cs")
+
+
+def test_names_that_end_like_a_unit_of_time_are_no_times(read):
+    for head in ("angle_min", "xMin", "peak_h", "gyro deg/s"):
+        assert read(f"time [s],{head}\n{ROWS}")[0].record.time_s[-1] == 4.75
+
+
+def test_times_that_no_clock_shows_in_seconds_need_their_unit(read):
+    rows = "".join(f"{1_700_000_000_000 + 250 * k},{v}\n" for k, v in enumerate(VALUES))
+    assert "too large for seconds: say their unit" in refusal(read, f"timestamp,x\n{rows}")[0]
+    assert read(f"timestamp [ms],x\n{rows}")[0].record.duration_s == pytest.approx(4.75)
+
+
+def test_a_rate_beside_times_is_refused(read):
+    assert refusal(read, f"time,x\n{ROWS}", rate_hz=4.0) == [
+        'line 1: "time" holds the times: --rate is for a file without; leave it out, or rename that column'
+    ]
+
+
+def test_a_rope_in_an_unknown_unit_is_not_taken_for_metres(read):
+    text = "t,rope [yd],x\n" + "".join(f"{k},{10 if k < 12 else 20},{np.cos(k)}\n" for k in range(30))
+    assert refusal(read, text, rope_column="2") == ['line 1: "rope [yd]": is not a length that is known']
+
+
 def test_columns_are_found_by_head_or_number(read):
     text = "n,time_s,left_rad,right_rad\n" + "".join(
         f"{k},{t},{v},{-v}\n" for k, (t, v) in enumerate(zip(TIMES, VALUES, strict=True))
