@@ -50,9 +50,7 @@ INPUTS = (
         "real",
         "what the reference shall be; clamped to the maximum, and not finite holds the last",
     ),
-    pin(
-        "vibration", "real", "measured vibration without offset; not finite or too large is not learned from"
-    ),
+    pin("vibration", "real", "measured vibration; not finite or too large is not learned from"),
 )
 """Pins that the block reads."""
 
@@ -295,7 +293,7 @@ class AdaptiveModel:
     def ram_bytes(self) -> int:
         """Upper bound of the size of the C state."""
         real = 4 if self.suffix else 8
-        return real * (2 * self.settings.ring_length + 2 * 6 + 2 * 3 + 5) + 7 * 4 + 16
+        return real * (2 * self.settings.ring_length + 2 * 6 + 3 * 3 + 5) + 7 * 4 + 16
 
     @property
     def header(self) -> tuple[str, ...]:
@@ -313,7 +311,7 @@ class AdaptiveModel:
             f"The command passes unshaped for {settings.cycle_ticks} ticks after it has first moved.",
             f"Commands up to {settings.max_command:.6g}, references to {settings.peak_factor:.6g} times it.",
             f"A vibration of {settings.vibration_scale:.6g} counts as 1: about what an unshaped move leaves.",
-            "Remove offset and hum of the measurement before.",
+            "A constant offset of the measurement does no harm; remove hum before.",
             "After S. Rhim and W. J. Book, Adaptive command shaping, eqs 7-16.",
             "",
             "NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.",

@@ -6,7 +6,7 @@ from swayless.codegen.st_types import Variable
 
 SUMS = ("Ee", "Eu", "Ew", "Uu", "Uw", "Ww")
 
-ST_WINDOW_SUMS = tuple(f"Window{name}" for name in SUMS)
+ST_WINDOW_SUMS = tuple(f"Window{name}" for name in (*SUMS, "E", "U", "W"))
 """Sums of the window, as in the C structure."""
 
 ST_FIRST_SUMS = tuple(
@@ -100,6 +100,7 @@ ST_FLAGS = (
     Variable("Again", "BOOL", "learning again", st_reset="FALSE"),
     Variable("Refused", "BOOL", "the last set was refused", st_reset="FALSE"),
     Variable("Rough", "BOOL", "the last window was summed up around a misfit", st_reset="FALSE"),
+    Variable("Trusted", "BOOL", "converged when the command last moved", st_reset="FALSE"),
     Variable("Fresh", "BOOL", "the window holds beginnings of rests, nothing else", st_reset="FALSE"),
     *(
         Variable(name, "BOOL", "intermediate result of one call")
@@ -111,6 +112,7 @@ ST_FLAGS = (
             "Sampled",
             "Complete",
             "Teaches",
+            "Misfits",
             "WasRough",
             "Tells",
             "Steady",

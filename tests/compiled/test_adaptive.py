@@ -67,7 +67,7 @@ def test_what_is_left_out_or_wrong_is_found(right, wrong, monkeypatch):
 
 def test_the_header_states_the_memory_and_refuses_more():
     header = generate_adaptive(model_of(ROBOT, "double"), "c")[0].text
-    assert "#define ROBOT_ADAPTIVE_RAM (1044u)" in header
+    assert "#define ROBOT_ADAPTIVE_RAM (1068u)" in header
 
 
 def test_reserved_names_and_targets_are_refused():

@@ -38,11 +38,8 @@ class Information(NamedTuple):
         """Sum of v0 v0 + v1 v1 + v2 v2 of sums that are around 0, 1, 0."""
         return (((3.0 * self.ee) + (2.0 * (self.eu + self.ew))) + self.uu) + self.ww
 
-    def with_sample(self, coefficients: Coefficients, v0: Any, v1: Any, v2: Any) -> Information:
-        """Add what coefficients leave of one sample and those of one and two delays ago."""
-        c0, _, c2 = coefficients
-        u, w = v0 - v1, v2 - v1
-        e = v1 + ((c0 * u) + (c2 * w))
+    def with_sample(self, e: Any, u: Any, w: Any) -> Information:
+        """Add the products of one sample, as `sample` gives it."""
         return Information(
             self.ee + (e * e),
             self.eu + (e * u),
@@ -85,8 +82,8 @@ class Information(NamedTuple):
         Examples
         --------
         >>> nothing = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        >>> here = nothing.with_sample((0.25, 0.5, 0.25), 3.0, 1.0, 2.0)
-        >>> here.moved(0.5, -0.25) == nothing.with_sample((0.75, 0.25, 0.0), 3.0, 1.0, 2.0)
+        >>> here = nothing.with_sample(*sample((0.25, 0.5, 0.25), 3.0, 1.0, 2.0))
+        >>> here.moved(0.5, -0.25) == nothing.with_sample(*sample((0.75, 0.25, 0.0), 3.0, 1.0, 2.0))
         True
         """
         eu = (self.eu + (d0 * self.uu)) + (d2 * self.uw)
@@ -111,6 +108,58 @@ class Information(NamedTuple):
         return d0, d2
 
 
+class Window(NamedTuple):
+    """Sums over the samples of a window: of products, and of e, u and w themselves.
+
+    The differences u and w know of no offset of the measurement; all of it is in e, of every sample alike.
+    """
+
+    products: Information
+    e: Any
+    u: Any
+    w: Any
+
+    def with_sample(self, e: Any, u: Any, w: Any) -> Window:
+        """Add one sample, as `sample` gives it."""
+        return Window(self.products.with_sample(e, u, w), self.e + e, self.u + u, self.w + w)
+
+    def around_means(self, samples: Any) -> Information:
+        """Give the sums of products of what differs from the means: a constant offset leaves nothing.
+
+        Parameters
+        ----------
+        samples : float or numpy.float32
+            How many there are.
+
+        Examples
+        --------
+        >>> nothing, middle = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+        >>> plain = shifted = Window(nothing, 0.0, 0.0, 0.0)
+        >>> for v0, v1, v2 in (1.0, 2.0, 0.0), (0.0, 1.0, 2.0):
+        ...     plain = plain.with_sample(*sample(middle, v0, v1, v2))
+        ...     shifted = shifted.with_sample(*sample(middle, 7.0 + v0, 7.0 + v1, 7.0 + v2))
+        >>> shifted.around_means(2.0) == plain.around_means(2.0)
+        True
+        """
+        ee, eu, ew, uu, uw, ww = self.products
+        e, u, w = self.e / samples, self.u / samples, self.w / samples
+        return Information(
+            ee - (e * self.e),
+            eu - (e * self.u),
+            ew - (e * self.w),
+            uu - (u * self.u),
+            uw - (u * self.w),
+            ww - (w * self.w),
+        )
+
+
+def sample(coefficients: Coefficients, v0: Any, v1: Any, v2: Any) -> tuple[Any, Any, Any]:
+    """Give e, u and w of one sample and those of one and two delays ago."""
+    c0, _, c2 = coefficients
+    u, w = v0 - v1, v2 - v1
+    return v1 + ((c0 * u) + (c2 * w)), u, w
+
+
 def squared_size(coefficients: Coefficients) -> Any:
     """Sum of squares: what white noise of power 1 is made by these coefficients; at least 1/3."""
     c0, c1, c2 = coefficients
@@ -132,7 +181,8 @@ def noise_power(around: Information, plain: Information) -> Any:
     Examples
     --------
     >>> nothing, middle = Information(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0)
-    >>> window = nothing.with_sample(middle, 1.0, 0.0, -1.0).with_sample(middle, 0.0, 2.0, 0.0)
+    >>> window = nothing.with_sample(*sample(middle, 1.0, 0.0, -1.0))
+    >>> window = window.with_sample(*sample(middle, 0.0, 2.0, 0.0))
     >>> noisy = window.with_white(middle, 0.5)
     >>> noise_power(window, window), round(noise_power(noisy, noisy), 12)
     (0.0, 0.5)

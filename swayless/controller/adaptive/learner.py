@@ -11,7 +11,9 @@ from typing import Any
 from swayless.controller.adaptive.information import (
     Coefficients,
     Information,
+    Window,
     noise_power,
+    sample,
     squared_size,
 )
 from swayless.controller.adaptive.lattice import Lattice
@@ -64,30 +66,31 @@ class Learner:
 
     def __init__(self, settings: AdaptiveSettings) -> None:
         scalar = settings.number.scalar
-        self._window_ticks = settings.window_ticks
+        self._window_ticks, self._window_samples = settings.window_ticks, scalar(settings.window_ticks)
         self._lattice = Lattice(settings)
         self._dead_zone = scalar(dead_zone_sum(settings))
         self._white_at_first = scalar(WHITE_AT_FIRST)
         self._zero, self._one = scalar(0), scalar(1)
         self.coefficients: Coefficients = first_coefficients(settings)
         self._nothing = Information(*(scalar(0) for _ in range(6)))
-        self._window, self._ticks = self._nothing, 0
+        self._drop()
         self._past = self._at_first()
         self._left: Any = self._zero
         self._noise: Any = self._zero
         self._samples: Any = self._zero
         self.has_learned = self.is_converged = self.is_frozen = False
         self.learns_again = self.was_refused = False
-        self._follows_a_move = self._is_rough = False
+        self._follows_a_move = self._is_rough = self._is_trusted = False
 
     def begin_rest(self) -> None:
         """Take a change of the command: what follows tells what this move leaves.
 
-        A window may go on from rest to rest, as long as it holds beginnings of rests and nothing else.
+        A window may go on from rest to rest, as long as it holds beginnings of rests and nothing else. A set
+        that has converged by now is not given up on the word of the coming rest alone: somebody may knock.
         """
         if not self._follows_a_move:
             self._drop()
-        self._follows_a_move = True
+        self._follows_a_move, self._is_trusted = True, self.is_converged
 
     def interrupt(self) -> None:
         """Take that samples are missing, or that what shapes the moves is another: the window is dropped."""
@@ -95,7 +98,7 @@ class Learner:
         self._follows_a_move = False
 
     def _drop(self) -> None:
-        self._window, self._ticks = self._nothing, 0
+        self._window, self._ticks = Window(self._nothing, self._zero, self._zero, self._zero), 0
 
     def learn(self, v0: Any, v1: Any, v2: Any, *, in_use: bool) -> None:
         """Take a sample of the free vibration and those of one and two delays ago.
@@ -107,10 +110,10 @@ class Learner:
         in_use : bool
             Whether the coefficients shape the command.
         """
-        self._window = self._window.with_sample(self.coefficients, v0, v1, v2)
+        self._window = self._window.with_sample(*sample(self.coefficients, v0, v1, v2))
         self._ticks += 1
         if self._ticks == self._window_ticks:
-            self._judge(self._window, in_use)
+            self._judge(self._window.around_means(self._window_samples), in_use)
             self.interrupt()
 
     def _judge(self, window: Information, in_use: bool) -> None:
@@ -119,7 +122,9 @@ class Learner:
         energy, noise = plain.energy, noise_power(window, plain)
         teaches = energy > self._dead_zone and energy > (3.0 * NOISE_FACTOR) * noise
         self.is_frozen = not teaches
-        if teaches:
+        if teaches and self._is_trusted and self._misfits(window.ee, energy, noise):
+            self.is_converged, self.learns_again = False, True  # one rest's word: the next one decides
+        elif teaches:
             weight = self._past_weight(window, energy, noise)
             self._past = window.with_white(self.coefficients, -noise).after(weight, self._past)
             self._adopt()
@@ -149,15 +154,20 @@ class Learner:
         self.learns_again, self._is_rough = False, not self.has_learned
         if not self.has_learned:
             return PAST_WINDOWS
-        size = squared_size(self.coefficients)
-        allowed = MISFIT_RATIO * energy
-        if left > ((MISFIT_FACTOR * noise) * size) + allowed:
+        if self._misfits(left, energy, noise):
             self.learns_again = self._is_rough = True
             self._forget_misfit()
             self._past = self._at_first()
             return 1.0
-        self.learns_again = self._misfits_slowly((left - allowed) / size, noise)
+        left = left - MISFIT_RATIO * energy
+        self.learns_again = self._misfits_slowly(left / squared_size(self.coefficients), noise)
         return 1.0 if self.learns_again else PAST_WINDOWS
+
+    def _misfits(self, left: Any, energy: Any, noise: Any) -> bool:
+        """Whether the coefficients leave far more of a window than its noise."""
+        return bool(
+            left > ((MISFIT_FACTOR * noise) * squared_size(self.coefficients)) + MISFIT_RATIO * energy
+        )
 
     def _misfits_slowly(self, left: Any, noise: Any) -> bool:
         """Whether recent windows together leave more than noise, by four standard deviations."""

@@ -15,8 +15,8 @@ class AdaptiveInput:
     command : float or numpy.float32
         What the reference shall be: a speed or a position, in the unit of the settings' `max_command`.
     vibration : float or numpy.float32
-        Measured vibration of the load, its offset removed: position, speed or acceleration, in the unit of
-        the settings' `vibration_scale`.
+        Measured vibration of the load: position, speed or acceleration, in the unit of the settings'
+        `vibration_scale`. A constant offset is not learned from.
     enable : bool
         False: nothing is learned, and the command passes unshaped as soon as it has rested.
     """

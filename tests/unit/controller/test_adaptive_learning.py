@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from swayless.controller import number_type
 from swayless.controller.adaptive import AdaptiveStatus
 from swayless.controller.adaptive.information import Information
+from swayless.controller.adaptive.information import sample as left_of
 from swayless.controller.adaptive.learner import Learner
 from swayless.plant import Mode
 from tests.unit.controller.adaptive_moves import Experiment
@@ -51,7 +52,7 @@ def test_eqs_13_to_16_are_the_coefficients_that_fit_the_six_sums(noise, phase, d
     samples = np.column_stack([swing[2:], swing[1:-1], swing[:-2]])
     known = NOTHING.with_white(around, 1e-7)
     for sample in samples.tolist():
-        known = known.with_sample(around, *sample)
+        known = known.with_sample(*left_of(around, *sample))
     # The two unknowns are conditioned like (1 - cos) / (1 + cos) at worst: 200 here.
     assert corrected(known, around) == pytest.approx(rls(samples.tolist(), 1), abs=1e-11)
 
@@ -61,7 +62,7 @@ def test_eqs_13_to_16_with_a_forgetting_factor_weigh_the_past_by_it():
     samples = np.column_stack([swing[2:], swing[1:-1], swing[:-2]]).tolist()
     known = NOTHING.with_white(MIDDLE, 1e-7)
     for sample in samples:
-        known = NOTHING.with_sample(MIDDLE, *sample).after(0.9, known)
+        known = NOTHING.with_sample(*left_of(MIDDLE, *sample)).after(0.9, known)
     assert corrected(known, MIDDLE) == pytest.approx(rls(samples, mpmath.mpf(0.9)), abs=1e-12)
 
 
@@ -126,6 +127,39 @@ def test_with_noise_another_payload_is_learned_down_to_twice_the_noise(delay_tic
     experiment.robot.load(Mode(frequency_hz, 0.01))
     rms = experiment.run(10)
     assert math.hypot(rms[-1], noise) < 2.0 * noise * 1.1  # the dead zone opens at twice the noise
+
+
+@pytest.mark.parametrize("offset", [0.002, 0.1, 1.0])
+@pytest.mark.parametrize(("number", "within"), [("double", 1e-11), ("float", 1e-4)])
+def test_without_noise_a_constant_offset_does_no_harm(offset, number, within):
+    # Squares of the offset are taken from sums of squares: what is left is right to their rounding.
+    experiment = Experiment(number=number, offset=offset)
+    experiment.run(3)
+    assert experiment.error() < within
+    assert not experiment.status[-1] & (AdaptiveStatus.LEARNING_AGAIN | AdaptiveStatus.SET_REFUSED)
+
+
+@pytest.mark.parametrize("offset", [0.002, 0.3])
+def test_with_noise_a_constant_offset_is_neither_vibration_nor_noise(offset):
+    experiment = Experiment(noise=0.001, offset=offset)
+    experiment.run(6)
+    assert experiment.error() < 2e-4
+    said = AdaptiveStatus.CONVERGED | AdaptiveStatus.FROZEN | AdaptiveStatus.ADAPTING
+    assert experiment.status[-1] == said
+
+
+@pytest.mark.parametrize("tick", [1760, 1950, 1965, 1975, 3965])
+def test_a_knock_during_one_rest_does_not_unseat_coefficients_that_had_converged(tick):
+    experiment = Experiment(noise=0.02)
+    experiment.run(4)
+    experiment.knock, experiment.knock_tick = 0.5, tick
+    knocked = experiment.run(1)
+    experiment.knock = 0.0
+    after = experiment.run(2)
+    assert (
+        max(*knocked, *after) < 0.005
+    )  # of what an unshaped ramp leaves; 0.3 if the last window of the rest were believed
+    assert not experiment.status[-1] & (AdaptiveStatus.LEARNING_AGAIN | AdaptiveStatus.SET_REFUSED)
 
 
 def test_pure_noise_teaches_nothing():

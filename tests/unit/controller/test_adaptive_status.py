@@ -68,12 +68,41 @@ def learned(phase, max_reference=1.0):
 @pytest.mark.parametrize(("phase", "said"), [(2.2, AGAIN), (1.0, REFUSED)])
 def test_vibration_that_sinks_into_noise_during_a_rest_confirms_nothing(phase, said):
     rests = learned(1.8)
-    rests.learner.begin_rest()
-    rests.swing(phase)
+    for _ in range(2):
+        rests.learner.begin_rest()
+        rests.swing(phase)
     assert rests.says == said
     rests.noise()
     assert rests.learner.is_frozen
     assert rests.says == said
+
+
+def test_no_single_rest_unseats_a_set_that_had_converged_and_two_in_a_row_do():
+    rests = learned(1.8)
+    before = rests.learner.coefficients
+    rests.learner.begin_rest()
+    for _ in range(3):
+        rests.swing(2.2)
+        assert (rests.says, rests.learner.coefficients) == (AGAIN, before)
+    rests.learner.begin_rest()
+    rests.swing(2.2)
+    assert rests.says == AGAIN
+    assert rests.learner.coefficients != before
+    rests.swing(2.2)
+    assert rests.says == CONVERGED
+
+
+@pytest.mark.parametrize("phase", [1.8, None])
+def test_a_rest_that_fits_or_leaves_nothing_restores_the_trust(phase):
+    rests = learned(1.8)
+    before = rests.learner.coefficients
+    for _ in range(3):
+        rests.learner.begin_rest()
+        rests.swing(2.2)
+        rests.learner.begin_rest()
+        rests.swing(phase) if phase else rests.noise()
+        assert rests.says == CONVERGED
+    assert rests.learner.coefficients == pytest.approx(before, abs=1e-8)  # P(0) fades: 1e-7 beside a window
 
 
 @pytest.mark.parametrize("phase", [2.2, 1.0])

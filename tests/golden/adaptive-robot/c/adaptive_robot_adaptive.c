@@ -10,7 +10,7 @@
  * The command passes unshaped for 4000 ticks after it has first moved.
  * Commands up to 1, references to 1 times it.
  * A vibration of 60 counts as 1: about what an unshaped move leaves.
- * Remove offset and hum of the measurement before.
+ * A constant offset of the measurement does no harm; remove hum before.
  * After S. Rhim and W. J. Book, Adaptive command shaping, eqs 7-16.
  *
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -72,9 +72,10 @@ static adaptive_robot_adaptive_sums_t adaptive_robot_with_white(const adaptive_r
 }
 
 /* Add what coefficients leave of one sample and those of one and two delays ago. */
-static void adaptive_robot_add_sample(adaptive_robot_adaptive_sums_t *sums, const adaptive_robot_number_t c[3],
-    adaptive_robot_number_t v0, adaptive_robot_number_t v1, adaptive_robot_number_t v2)
+static void adaptive_robot_add_sample(adaptive_robot_adaptive_t *s, adaptive_robot_number_t v0, adaptive_robot_number_t v1, adaptive_robot_number_t v2)
 {
+    const adaptive_robot_number_t *const c = s->coefficient;
+    adaptive_robot_adaptive_sums_t *const sums = &s->window;
     const adaptive_robot_number_t u = v0 - v1;
     const adaptive_robot_number_t w = v2 - v1;
     const adaptive_robot_number_t e = v1 + ((c[0] * u) + (c[2] * w));
@@ -84,6 +85,24 @@ static void adaptive_robot_add_sample(adaptive_robot_adaptive_sums_t *sums, cons
     sums->uu = sums->uu + (u * u);
     sums->uw = sums->uw + (u * w);
     sums->ww = sums->ww + (w * w);
+    s->sum_e = s->sum_e + e;
+    s->sum_u = s->sum_u + u;
+    s->sum_w = s->sum_w + w;
+}
+
+/* Take the means out of the window: a constant offset of the measurement leaves nothing. */
+static void adaptive_robot_take_means(adaptive_robot_adaptive_t *s)
+{
+    adaptive_robot_adaptive_sums_t *const sums = &s->window;
+    const adaptive_robot_number_t e = s->sum_e / adaptive_robot_WINDOW;
+    const adaptive_robot_number_t u = s->sum_u / adaptive_robot_WINDOW;
+    const adaptive_robot_number_t w = s->sum_w / adaptive_robot_WINDOW;
+    sums->ee = sums->ee - (e * s->sum_e);
+    sums->eu = sums->eu - (e * s->sum_u);
+    sums->ew = sums->ew - (e * s->sum_w);
+    sums->uu = sums->uu - (u * s->sum_u);
+    sums->uw = sums->uw - (u * s->sum_w);
+    sums->ww = sums->ww - (w * s->sum_w);
 }
 
 /* Sums around other coefficients: d0 more of the first, d2 more of the last. */
@@ -161,6 +180,9 @@ static adaptive_robot_number_t adaptive_robot_noise_power(const adaptive_robot_a
 static void adaptive_robot_interrupt(adaptive_robot_adaptive_t *s)
 {
     s->window = adaptive_robot_NOTHING;
+    s->sum_e = 0.0;
+    s->sum_u = 0.0;
+    s->sum_w = 0.0;
     s->window_ticks = 0u;
     s->fresh = false;
 }
@@ -190,6 +212,13 @@ static bool adaptive_robot_misfits_slowly(adaptive_robot_adaptive_t *s, adaptive
         && (((excess * excess) * s->samples) > (adaptive_robot_SIGNIFICANCE * (s->noise * s->noise)));
 }
 
+/* Whether the coefficients leave far more of the window than its noise. */
+static bool adaptive_robot_misfits(const adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
+{
+    const adaptive_robot_number_t allowed = adaptive_robot_MISFIT_RATIO * energy;
+    return s->window.ee > (((adaptive_robot_MISFIT_FACTOR * noise) * adaptive_robot_squared_size(s->coefficient)) + allowed);
+}
+
 /* How many windows like this one the past is worth. */
 static adaptive_robot_number_t adaptive_robot_windows_that_count(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
 {
@@ -197,16 +226,14 @@ static adaptive_robot_number_t adaptive_robot_windows_that_count(adaptive_robot_
     s->again = false;
     s->rough = !s->learned;
     if (s->learned) {
-        const adaptive_robot_number_t left = s->window.ee;
-        const adaptive_robot_number_t size = adaptive_robot_squared_size(s->coefficient);
-        const adaptive_robot_number_t allowed = adaptive_robot_MISFIT_RATIO * energy;
-        if (left > (((adaptive_robot_MISFIT_FACTOR * noise) * size) + allowed)) {
+        if (adaptive_robot_misfits(s, energy, noise)) {
             s->again = true;
             s->rough = true;
             adaptive_robot_forget_misfit(s);
             adaptive_robot_forget_past(s);
         } else {
-            s->again = adaptive_robot_misfits_slowly(s, (left - allowed) / size, noise);
+            const adaptive_robot_number_t left = s->window.ee - (adaptive_robot_MISFIT_RATIO * energy);
+            s->again = adaptive_robot_misfits_slowly(s, left / adaptive_robot_squared_size(s->coefficient), noise);
         }
         if (s->again) {
             windows = 1.0;
@@ -279,7 +306,11 @@ static void adaptive_robot_judge(adaptive_robot_adaptive_t *s)
     const adaptive_robot_number_t energy = adaptive_robot_energy_of(&plain);
     const adaptive_robot_number_t noise = adaptive_robot_noise_power(&s->window, &plain);
     s->frozen = !((energy > adaptive_robot_DEAD_ZONE) && (energy > (adaptive_robot_NOISE_FACTOR * noise)));
-    if (!s->frozen) {
+    if ((!s->frozen) && s->trusted && adaptive_robot_misfits(s, energy, noise)) {
+        /* one rest's word against a set that had converged: the next one decides */
+        s->converged = false;
+        s->again = true;
+    } else if (!s->frozen) {
         const adaptive_robot_number_t weight = adaptive_robot_past_weight(s, energy, noise);
         const adaptive_robot_adaptive_sums_t seen = adaptive_robot_with_white(&s->window, s->coefficient, -noise);
         s->past.ee = (weight * s->past.ee) + seen.ee;
@@ -303,9 +334,10 @@ static bool adaptive_robot_learn(adaptive_robot_adaptive_t *s, bool enable, uint
 {
     const bool adapting = enable && (s->quiet_ticks >= 101u);
     if (adapting) {
-        adaptive_robot_add_sample(&s->window, s->coefficient, s->vibration, s->vibrations[first], s->vibrations[second]);
+        adaptive_robot_add_sample(s, s->vibration, s->vibrations[first], s->vibrations[second]);
         s->window_ticks += 1u;
         if (s->window_ticks >= 200u) {
+            adaptive_robot_take_means(s);
             adaptive_robot_judge(s);
             adaptive_robot_interrupt(s);
         }
@@ -347,6 +379,7 @@ void adaptive_robot_adaptive_init(adaptive_robot_adaptive_t *shaper)
     shaper->again = false;
     shaper->rough = false;
     shaper->refused = false;
+    shaper->trusted = false;
 }
 
 /* Take a finite command within the maximum, and count how long it has rested. */
@@ -376,6 +409,7 @@ static void adaptive_robot_read_command(adaptive_robot_adaptive_t *s, adaptive_r
             adaptive_robot_interrupt(s);
         }
         s->fresh = true;
+        s->trusted = s->converged;
         s->moved_ticks += (s->moved_ticks < 4000u) ? 1u : 0u;
     }
     s->command = command;

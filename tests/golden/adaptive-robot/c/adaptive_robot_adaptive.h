@@ -10,7 +10,7 @@
  * The command passes unshaped for 4000 ticks after it has first moved.
  * Commands up to 1, references to 1 times it.
  * A vibration of 60 counts as 1: about what an unshaped move leaves.
- * Remove offset and hum of the measurement before.
+ * A constant offset of the measurement does no harm; remove hum before.
  * After S. Rhim and W. J. Book, Adaptive command shaping, eqs 7-16.
  *
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -35,7 +35,7 @@ extern "C" {
 /// Cells of each ring: two delays and the present sample.
 #define ADAPTIVE_ROBOT_ADAPTIVE_RING (51u)
 /// Upper bound of sizeof(adaptive_robot_adaptive_t), in bytes; checked when compiled.
-#define ADAPTIVE_ROBOT_ADAPTIVE_RAM (1044u)
+#define ADAPTIVE_ROBOT_ADAPTIVE_RAM (1068u)
 
 /// Status: enable is false: nothing is learned; from rest on the command is not shaped.
 #define ADAPTIVE_ROBOT_ADAPTIVE_DISABLED ((uint32_t)1u << 0)
@@ -62,7 +62,7 @@ extern "C" {
 typedef struct {
     bool enable; ///< false: nothing is learned; from rest on the command is not shaped
     double command; ///< what the reference shall be; clamped to the maximum, and not finite holds the last
-    double vibration; ///< measured vibration without offset; not finite or too large is not learned from
+    double vibration; ///< measured vibration; not finite or too large is not learned from
 } adaptive_robot_adaptive_input_t;
 
 /// Outputs of one tick.
@@ -92,6 +92,9 @@ typedef struct {
     double vibrations[ADAPTIVE_ROBOT_ADAPTIVE_RING]; ///< ring
     adaptive_robot_adaptive_sums_t window; ///< the present window
     adaptive_robot_adaptive_sums_t past; ///< all that has been learned
+    double sum_e; ///< of e itself over the window
+    double sum_u; ///< of u
+    double sum_w; ///< of w
     double coefficient[3]; ///< learned
     double used[3]; ///< in use
     double command; ///< last valid
@@ -113,6 +116,7 @@ typedef struct {
     bool refused; ///< the last set was refused
     bool rough; ///< the last window was summed up around coefficients that did not fit
     bool fresh; ///< the window holds beginnings of rests and nothing else
+    bool trusted; ///< the coefficients had converged when the command last moved
 } adaptive_robot_adaptive_t;
 
 /// Bring a shaper to the state after power-on: coefficients of 1/3, not in use. Cost: both rings.
