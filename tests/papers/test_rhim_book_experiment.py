@@ -74,7 +74,7 @@ def test_other_delays_all_show_very_similar_results(delay_ticks):
 
 def test_a_delay_of_half_a_period_is_refused_where_the_mode_is_known():
     with pytest.raises(ControllerError, match=r"must be at most 0\.95"):
-        check_delay(0.031, paper.MODE, 1.0)
+        check_delay(31, 0.001, paper.MODE, 1.0)
 
 
 def test_eqs_13_to_16_as_printed_drift_on_noise_and_the_block_does_not():

@@ -15,13 +15,15 @@ _ROUNDING = 1e-9
 _HALVINGS = 60
 
 
-def check_delay(delay_s: float, mode: Mode, peak_factor: float) -> None:
+def check_delay(delay_ticks: int, tick_s: float, mode: Mode, peak_factor: float) -> None:
     """Refuse a delay with which a vibration cannot be learned.
 
     Parameters
     ----------
-    delay_s : float
-        From one impulse to the next, > 0.
+    delay_ticks : int
+        From one impulse to the next, 1 or more.
+    tick_s : float
+        Length of a tick, > 0.
     mode : Mode
         The vibration.
     peak_factor : float
@@ -39,19 +41,16 @@ def check_delay(delay_s: float, mode: Mode, peak_factor: float) -> None:
 
     Examples
     --------
-    >>> check_delay(0.025, Mode(16.0), 1.0)
-    >>> check_delay(0.010, Mode(16.0), 1.0)
+    >>> check_delay(25, 0.001, Mode(16.0), 1.0)
+    >>> check_delay(10, 0.001, Mode(16.0), 1.0)
     Traceback (most recent call last):
         ...
     swayless.errors.ControllerError: delay = 0.01 s: has amplitudes of 1.0772, -1.1544 and 1.0772 for the \
 vibration of 16 Hz, which take max_reference = 3.3087 times max_command; with max_reference = 1 times \
-max_command delays such as 0.015625 to 0.028091 s can be learned
+max_command delays such as 0.016 to 0.028 s can be learned
     """
-    what, low_s, high_s = f"the vibration of {mode.frequency_hz:.6g} Hz", *learnable_delays(mode, peak_factor)
-    instead = (
-        f"with max_reference = {peak_factor:.5g} times max_command delays such as {low_s:.5g} to "
-        f"{high_s:.5g} s can be learned"
-    )
+    what, delay_s = f"the vibration of {mode.frequency_hz:.6g} Hz", delay_ticks * tick_s
+    instead = f"with max_reference = {peak_factor:.5g} times max_command {_others(tick_s, mode, peak_factor)}"
     cosine = abs(math.cos(2.0 * math.pi * delay_s / mode.damped_period_s))
     if cosine > LARGEST_COSINE:
         raise ControllerError(
@@ -65,6 +64,18 @@ max_command delays such as 0.015625 to 0.028091 s can be learned
             f"delay = {delay_s:.6g} s: has amplitudes of {first:.5g}, {middle:.5g} and {last:.5g} "
             f"for {what}, which take max_reference = {asked:.5g} times max_command; {instead}"
         )
+
+
+def _others(tick_s: float, mode: Mode, peak_factor: float) -> str:
+    """Name delays of whole ticks that can be learned, or say that there are none."""
+    low_s, high_s = learnable_delays(mode, peak_factor)
+    low, high = math.ceil(low_s / tick_s - _ROUNDING), math.floor(high_s / tick_s + _ROUNDING)
+    if low > high:
+        return (
+            f"delays from {low_s:.5g} to {high_s:.5g} s can be learned, which no whole number of ticks of "
+            f"{tick_s:.6g} s is"
+        )
+    return f"delays such as {low * tick_s:.6g} to {high * tick_s:.6g} s can be learned"
 
 
 def learnable_delays(mode: Mode, peak_factor: float) -> tuple[float, float]:

@@ -66,7 +66,7 @@ class AdaptiveSettings:
     Traceback (most recent call last):
         ...
     swayless.errors.ControllerError: delay = 0.031 s: |cos(w Td)| = 0.99968 of the vibration of 16 Hz: must \
-be at most 0.95; with max_reference = 1 times max_command delays such as 0.015625 to 0.028091 s can be learned
+be at most 0.95; with max_reference = 1 times max_command delays such as 0.016 to 0.028 s can be learned
     """
 
     delay_ticks: int
@@ -98,7 +98,7 @@ be at most 0.95; with max_reference = 1 times max_command delays such as 0.01562
         if not 0.0 <= self.dead_zone_ratio <= 1.0:
             raise ControllerError(f"dead_zone_ratio = {self.dead_zone_ratio!r}: must be from 0 to 1")
         if self.mode is not None:
-            check_delay(self.delay_ticks * self.tick_s, self.mode, self.peak_factor)
+            check_delay(self.delay_ticks, self.tick_s, self.mode, self.peak_factor)
 
     def _check_ticks(self, name: str, lowest: int) -> None:
         highest = LONGEST_TICKS // (DELAYS_PER_WINDOW if name == "delay_ticks" else 1)
