@@ -14,7 +14,11 @@ from typing import Any
 
 import swayless
 from swayless.controller.adaptive import AdaptiveSettings
-from swayless.controller.adaptive.settings import DELAYS_PER_WINDOW, LONGEST_TICKS
+from swayless.controller.adaptive.settings import (
+    DELAYS_PER_WINDOW,
+    LARGEST_PEAK_FACTOR,
+    LONGEST_TICKS,
+)
 from swayless.controller.number import number_type
 from swayless.errors import ControllerError, FileError
 from swayless.machine.checks import choice, machine_name, number, quantity
@@ -118,7 +122,7 @@ def _read_settings(table: Table, controller: Table) -> AdaptiveSettings | None:
     values: dict[str, Any] = {
         "max_command": table.need("max_command", _SIZE),
         "vibration_scale": table.need("vibration_scale", _SIZE),
-        "max_reference": table.take("max_reference", _SIZE, None),
+        "max_reference": table.take("max_reference", number(1e-6, LARGEST_PEAK_FACTOR * 1e6), None),
         "dead_zone_ratio": table.take("dead_zone", number(0.0, 1.0), 0.001),
     }
     frequency_hz: Any = table.take("frequency", FREQUENCY, None)

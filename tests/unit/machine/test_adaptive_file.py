@@ -51,6 +51,11 @@ def test_what_is_stored_is_what_was_read(tmp_path):
     assert load_adaptive(stored) == machine
 
 
+def test_the_largest_reference_may_be_eight_times_the_largest_command(tmp_path):
+    text = GOOD.replace("max_command = 0.8", "max_command = 1e6").replace("= 1.2", "= 8e6")
+    assert load_adaptive(written(tmp_path, text)).settings.peak_factor == 8.0
+
+
 def test_only_a_file_with_the_section_is_adaptive(tmp_path):
     assert is_adaptive(EXAMPLE)
     assert not is_adaptive(EXAMPLE.with_name("srtc-gantry.toml"))
