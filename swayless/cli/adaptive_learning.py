@@ -18,7 +18,7 @@ NOISE_RATIO = 0.05
 """Rms of the noise, relative to what an unshaped move leaves."""
 
 PERIODS_PER_DELAY, DAMPING_RATIO = 0.4, 0.01
-"""The vibration where the file knows none."""
+"""The vibration where the file knows none, and its damping where it knows none."""
 
 _WINDOWS_PER_REST = 3
 _MOST_DELAY_TICKS = 50
@@ -36,7 +36,7 @@ def simulated_learning(machine: AdaptiveMachine) -> PlottedLearning:
     """
     import numpy as np
 
-    from swayless.controller.adaptive import AdaptiveInput, AdaptiveShaper
+    from swayless.controller.adaptive import AdaptiveInput, AdaptiveShaper, AdaptiveStatus
     from swayless.design.families.closed_form import delay_filter
     from swayless.plant.simulation.flexible_robot import FlexibleRobot
     from swayless.report.adaptive import PlottedLearning
@@ -47,7 +47,7 @@ def simulated_learning(machine: AdaptiveMachine) -> PlottedLearning:
     commands = np.repeat(np.arange(1, MOVES + 1) % 2, move_ticks).tolist()
     noise = NOISE_RATIO * np.random.default_rng(1).standard_normal(len(commands))
     shaper, robot, vibration = AdaptiveShaper(settings), FlexibleRobot(mode, settings.tick_s), 0.0
-    vibrations, coefficients = [], []
+    vibrations, coefficients, in_use = [], [], []
     for command, error in zip(commands, noise.tolist(), strict=True):
         pins = AdaptiveInput(scalar(command * settings.max_command), scalar((vibration + error) * scale))
         output = shaper.step(pins)
@@ -55,6 +55,7 @@ def simulated_learning(machine: AdaptiveMachine) -> PlottedLearning:
         vibration = robot.step(reference) / mode.angular_frequency_rad_s
         vibrations.append(vibration)
         coefficients.append(output.coefficient)
+        in_use.append(not output.status & AdaptiveStatus.UNSHAPED)
     delay_s = settings.delay_ticks * settings.tick_s
     what = f"{machine.name}: learning {_vibration(machine.settings, mode)}"
     return PlottedLearning(
@@ -64,7 +65,7 @@ def simulated_learning(machine: AdaptiveMachine) -> PlottedLearning:
         np.array(vibrations),
         np.array(coefficients, dtype=np.float64),
         np.array(delay_filter(mode, delay_s=delay_s)[1]),
-        settings.tick_s * settings.cycle_ticks,
+        settings.tick_s * in_use.index(True) if any(in_use) else None,
     )
 
 
@@ -72,13 +73,16 @@ def _mode(settings: AdaptiveSettings) -> Mode:
     """Give the vibration to learn."""
     from swayless.plant import Mode
 
-    return settings.mode or Mode(PERIODS_PER_DELAY / (settings.delay_ticks * settings.tick_s), DAMPING_RATIO)
+    if settings.mode is None:
+        return Mode(PERIODS_PER_DELAY / (settings.delay_ticks * settings.tick_s), DAMPING_RATIO)
+    return Mode(settings.mode.frequency_hz, settings.mode.damping_ratio or DAMPING_RATIO)
 
 
 def _vibration(settings: AdaptiveSettings, mode: Mode) -> str:
     """Name the vibration, and whose it is."""
     if settings.mode is not None:
-        return f"the file's vibration of {mode.frequency_hz:.4g} Hz"
+        damping = "" if settings.mode.damping_ratio else f", damping ratio {DAMPING_RATIO:g}"
+        return f"the file's vibration of {mode.frequency_hz:.4g} Hz{damping}"
     return f"a vibration of {mode.frequency_hz:.4g} Hz ({PERIODS_PER_DELAY:g} periods in a delay)"
 
 

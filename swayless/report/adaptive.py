@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from swayless.design.shaper import FloatArray
 from swayless.report.style import (
@@ -42,8 +43,8 @@ class PlottedLearning:
         What has been learned.
     wanted : ndarray, shape (3,)
         Eq 4 for the vibration: what is to be learned.
-    in_use_from_s : float
-        When the coefficients begin to shape the command.
+    in_use_from_s : float or None
+        When the coefficients begin to shape the command; None if they never do.
     """
 
     title: str
@@ -52,7 +53,7 @@ class PlottedLearning:
     vibration_ratio: FloatArray
     coefficients: FloatArray
     wanted: FloatArray
-    in_use_from_s: float
+    in_use_from_s: float | None
 
 
 def learning_figure(learning: PlottedLearning) -> Figure:
@@ -97,7 +98,7 @@ def _draw_vibration(panel: Axes, learning: PlottedLearning, names: Sequence[str]
     time_s = learning.time_s[::every]
     lines = panel.plot(time_s, learning.measured_ratio[::every], color=GREY, linewidth=0.5, label=names[0])
     lines += panel.plot(time_s, learning.vibration_ratio[::every], color=INK, linewidth=0.8, label=names[1])
-    panel.axvline(learning.in_use_from_s, color=ALARM, linewidth=0.8)
+    _draw_in_use(panel, learning, None)
     legend_beside(panel, lines)
 
 
@@ -114,5 +115,11 @@ def _draw_coefficients(panel: Axes, learning: PlottedLearning, names: Sequence[s
             **line_style(index),
         )
     wanted.set_label(names[3])
-    in_use = panel.axvline(learning.in_use_from_s, color=ALARM, linewidth=0.8, label=names[4])
-    legend_beside(panel, [*lines, wanted, in_use])
+    legend_beside(panel, [*lines, wanted, *_draw_in_use(panel, learning, names[4])])
+
+
+def _draw_in_use(panel: Axes, learning: PlottedLearning, name: str | None) -> list[Line2D]:
+    """Mark when the coefficients begin to shape the command, if they do."""
+    if learning.in_use_from_s is None:
+        return []
+    return [panel.axvline(learning.in_use_from_s, color=ALARM, linewidth=0.8, label=name)]

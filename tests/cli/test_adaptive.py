@@ -66,7 +66,8 @@ def test_without_the_proof_it_says_so_and_what_rests_must_last_for(run, tmp_path
     ("changes", "title"),
     [
         ({}, "adaptive_robot: learning a vibration of 16 Hz (0.4 periods in a delay)"),
-        ({"mode": Mode(14.0, 0.02)}, "adaptive_robot: learning the file's vibration of 14 Hz"),
+        ({"mode": Mode(14.0, 0.02)}, "adaptive_robot: learning the file's vibration of 14 Hz, simulated"),
+        ({"mode": Mode(14.0)}, "adaptive_robot: learning the file's vibration of 14 Hz, damping ratio 0.01,"),
         ({"delay_ticks": 25_000, "lag_ticks": 1_000_000}, "adaptive_robot: learning a vibration of 0.016 Hz"),
     ],
 )
@@ -78,3 +79,11 @@ def test_the_figure_shows_how_the_file_s_vibration_is_learned(changes, title):
     assert learning.coefficients[-1] == pytest.approx(learning.wanted, abs=2e-3)
     assert np.abs(learning.vibration_ratio[: learning.time_s.size // MOVES]).max() > 0.8
     assert np.abs(learning.vibration_ratio[-200:]).max() < 0.05
+    assert learning.in_use_from_s is not None
+
+
+def test_the_figure_of_a_vibration_that_dies_too_fast_to_be_learned_says_so_by_what_it_leaves_out():
+    machine = load_adaptive(EXAMPLE)
+    learning = simulated_learning(replace(machine, settings=replace(machine.settings, mode=Mode(14.0, 0.3))))
+    assert (learning.coefficients == learning.coefficients[0]).all()
+    assert learning.in_use_from_s is None
