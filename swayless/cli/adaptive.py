@@ -79,5 +79,10 @@ def _lines(settings: AdaptiveSettings) -> Iterator[str]:
 def _verdicts(model: AdaptiveModel, code: CodeFiles, how: Proving) -> Iterator[Verdict]:
     from swayless.verify.adaptive import verify_adaptive
 
-    c_files, st_files = code.get("c", ()), code.get("st", ())
-    return verify_adaptive(model, c_files=c_files, st_files=st_files, compiler=how.compiler)
+    return verify_adaptive(
+        model,
+        c_files=code.get("c", ()),
+        st_files=code.get("st", ()),
+        compiler=how.compiler,
+        soak_ticks=how.soak_ticks,
+    )

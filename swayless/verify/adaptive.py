@@ -14,6 +14,7 @@ from swayless.codegen.adaptive_model import INPUTS, OUTPUTS, AdaptiveModel
 from swayless.codegen.pin import Pin
 from swayless.codegen.render import GeneratedFile
 from swayless.controller.adaptive import AdaptiveInput, AdaptiveSettings, AdaptiveShaper
+from swayless.controller.adaptive.shaper import LARGEST_VIBRATION
 from swayless.plant.mode import Mode
 from swayless.plant.simulation.flexible_robot import FlexibleRobot
 from swayless.verify.c_run import CompiledProgram
@@ -34,12 +35,19 @@ NOISE_RATIO = 0.05
 """Measurement noise, relative to the vibration that counts as 1."""
 
 
+LONGEST_SOAK = 100_000
+"""Ticks: the reference runs them in some seconds."""
+
+_MOVES_ALIKE, _SOAK = 6, "soak"
+
+
 def verify_adaptive(
     model: AdaptiveModel,
     *,
     c_files: Sequence[GeneratedFile] = (),
     st_files: Sequence[GeneratedFile] = (),
     compiler: Compiler | None = None,
+    soak_ticks: int = 0,
 ) -> Iterator[Verdict]:
     """Run generated code and its reference over every stimulus and compare all outputs bit for bit.
 
@@ -51,6 +59,8 @@ def verify_adaptive(
         What to verify; an empty sequence leaves the language out.
     compiler : Compiler
         Needed for `c_files`.
+    soak_ticks : int
+        Length of a long run of the C, up to `LONGEST_SOAK`; 0 leaves it out.
 
     Yields
     ------
@@ -72,9 +82,9 @@ def verify_adaptive(
             runs.append((f"C by {compiler.name}, {number}", stack.enter_context(program)))
         for file in st_files:
             runs.append((f"ST by evaluator, {model.st_real}", EvaluatedProgram(file.text, outputs)))
-        for stimulus in adaptive_stimuli(model.settings):
+        for stimulus in adaptive_stimuli(model.settings, soak_ticks if c_files else 0):
             expected = run_adaptive_reference(model.settings, stimulus.inputs)
-            for code, run in runs:
+            for code, run in runs[:1] if stimulus.name == _SOAK else runs:
                 found = compare(expected, run.run(stimulus.inputs))
                 yield Verdict(code, stimulus.name, expected.size, found)
 
@@ -105,19 +115,26 @@ def run_adaptive_reference(settings: AdaptiveSettings, inputs: NDArray[np.void])
     return outputs
 
 
-def adaptive_stimuli(settings: AdaptiveSettings) -> Iterator[Stimulus]:
-    """Make every stimulus: a robot under the block, with two payloads, quiet, noisy, and with bad readings.
+def adaptive_stimuli(settings: AdaptiveSettings, soak_ticks: int = 0) -> Iterator[Stimulus]:
+    """Make every stimulus: a robot with two payloads under the block, bad readings, and what no robot does.
 
     Parameters
     ----------
     settings : AdaptiveSettings
         The block.
+    soak_ticks : int
+        Length of the last one, up to `LONGEST_SOAK`; 0 leaves it out.
     """
     yield Stimulus("moves without noise", _closed_loop(settings, 0.0, seed=1))
     noisy = _closed_loop(settings, NOISE_RATIO, seed=2)
     yield Stimulus("moves with noise", noisy)
     yield Stimulus("bad readings", _spoilt(settings, noisy, seed=3))
     yield Stimulus("noise alone", _noise_alone(settings, seed=4))
+    yield Stimulus("any two poles", _any_two_poles(settings, _moves(settings), seed=9))
+    if soak_ticks:
+        ticks = min(soak_ticks, LONGEST_SOAK)
+        moves = -(-ticks // _move_ticks(settings))
+        yield Stimulus(_SOAK, _any_two_poles(settings, moves, seed=6)[:ticks])
 
 
 def _closed_loop(settings: AdaptiveSettings, noise: float, *, seed: int) -> NDArray[np.void]:
@@ -147,10 +164,11 @@ def _spoilt(settings: AdaptiveSettings, inputs: NDArray[np.void], *, seed: int) 
     """Put values into good inputs that are not finite, too large or tiny, and switch the block off and on."""
     random, spoilt = np.random.default_rng(seed), inputs.copy()
     info = np.finfo(inputs["command"].dtype)
-    odd = [np.nan, np.inf, -np.inf, info.max, -info.max, info.tiny, -0.0, settings.max_command]
-    for name in ("command", "vibration"):
-        ticks = random.integers(0, inputs.size, 4 * len(odd))
-        spoilt[name][ticks] = np.resize(odd, ticks.size)
+    odd = [np.nan, np.inf, -np.inf, info.max, -info.max, info.tiny, -0.0]
+    largest = {"command": settings.max_command, "vibration": LARGEST_VIBRATION * settings.vibration_scale}
+    for name, most in largest.items():
+        ticks = random.integers(0, inputs.size, 4 * (len(odd) + 1))
+        spoilt[name][ticks] = np.resize([*odd, most], ticks.size)
     spoilt["enable"] = np.repeat(random.random(_moves(settings)) > 0.2, _move_ticks(settings))[: inputs.size]
     return spoilt
 
@@ -161,6 +179,29 @@ def _noise_alone(settings: AdaptiveSettings, *, seed: int) -> NDArray[np.void]:
     random, inputs = np.random.default_rng(seed), _blank(settings, moves * move_ticks)
     sizes = np.repeat(np.geomspace(1e-30, 200.0, moves), move_ticks) * settings.vibration_scale
     inputs["vibration"] = sizes * random.standard_normal(inputs.size)
+    return inputs
+
+
+def _any_two_poles(settings: AdaptiveSettings, moves: int, *, seed: int) -> NDArray[np.void]:
+    """Let poles, offset and noise of what is measured change from move to move, by little or by much.
+
+    Two real poles of unlike sign, which no robot has, ask for a last amplitude below 0. Sets that hardly fit,
+    or are hardly allowed, tell every limit and weight from one that is a little different.
+    """
+    random, move_ticks = np.random.default_rng(seed), _move_ticks(settings)
+    offset, noise = (10.0 ** random.uniform(-4.0, high, (moves, 1)) for high in (0.0, -0.7))
+    places = np.repeat(random.uniform([-0.3, -1.5], [1.5, 0.3], (moves, 2)), _MOVES_ALIKE, axis=0)[:moves]
+    places += (noise + 0.004) * random.uniform(-6.0, 6.0, (moves, 2))
+    product, sine = 0.99 * np.sin(places).T
+    total = (1.0 + product) * sine  # both poles within the unit circle
+    readings = list(random.standard_normal((2, moves, settings.delay_ticks)))
+    for _ in range(2, -(-move_ticks // settings.delay_ticks)):
+        readings.append(total[:, None] * readings[-1] - product[:, None] * readings[-2])
+    vibration = np.stack(readings, axis=1).reshape(moves, -1)[:, :move_ticks]
+    inputs = _blank(settings, vibration.size)
+    inputs["command"] = settings.max_command * np.repeat(random.uniform(-1.0, 1.0, moves), move_ticks)
+    measured = vibration + offset + noise * random.standard_normal(vibration.shape)
+    inputs["vibration"] = settings.vibration_scale * measured.ravel()
     return inputs
 
 

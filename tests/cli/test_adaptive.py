@@ -37,16 +37,18 @@ def test_the_command_lines_of_the_page_build_the_example_which_can_be_verified_a
     first, second = (line for line in PAGE.read_text().splitlines() if line.startswith("swayless "))
     assert run(*shlex.split(first)[1:]).code == 0
     assert (tmp_path / "adaptive-robot.toml").read_text() == EXAMPLE.read_text()
-    built = run(*shlex.split(second)[1:], "--json")
+    built = run(*shlex.split(second)[1:], "--json", "--soak-ticks", "300")
     document, out = json.loads(built.out), tmp_path / "adaptive-robot"
     assert (built.code, document["verified"]) == (0, "equal")
     assert (document["quiet_s"], document["window_s"]) == (0.101, 0.2)
     assert sorted(document["files"]) == FILES
     assert {part["code"].split()[0] for part in document["runs"]} == {"C", "ST"}
+    soaks = [(part["code"][0], part["ticks"]) for part in document["runs"] if part["stimulus"] == "soak"]
+    assert soaks == [("C", 300)]
     assert run("build", str(EXAMPLE), "-o", str(out), "--check").code == 0
     code = out / "st" / "FB_adaptive_robot_Adaptive.st"
     code.write_text(code.read_text().replace("Reference := HeldCommand", "Reference := -HeldCommand"))
-    verified = run("verify", str(out))
+    verified = run("verify", str(out), "--soak-ticks", "0")
     assert verified.code == 1
     assert "verified: C by" in verified.out
     assert "DIFFERS: ST by evaluator, LREAL" in verified.out
