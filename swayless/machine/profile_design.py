@@ -13,24 +13,8 @@ from swayless.controller.profile import ProfileSettings
 from swayless.controller.profile.compression import raw_pieces
 from swayless.machine.profile_design_move import ProfileMove
 from swayless.machine.profile_design_numbers import NumberedMove
-from swayless.machine.profile_design_proof import promised
+from swayless.machine.profile_design_promise import ProfileGuarantee, guaranteed
 from swayless.machine.profile_design_settings import settings_for
-
-
-@dataclass(frozen=True)
-class ProfileGuarantee:
-    """What is promised of a block; proved for the numbers that run.
-
-    Parameters
-    ----------
-    final_error_ratio : float
-        How far the states may be from rest at the end of the move, each of its largest in the move.
-    stop_error_ratio : float
-        The same, after a stop from any tick; 0 where there are no stops.
-    """
-
-    final_error_ratio: float
-    stop_error_ratio: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,9 +96,7 @@ def make_profile_design(name: str, source: str, move: ProfileMove, number: str =
     (2, 1e-12, (32, 20))
     """
     stored = move.as_stored()
-    settings, proof = settings_for(NumberedMove(stored, number_type(number)))
-    guarantee = ProfileGuarantee(
-        promised(proof.final_error_ratio),
-        0.0 if settings.stop is None else promised(proof.stop_error_ratio),
-    )
+    numbered = NumberedMove(stored, number_type(number))
+    settings, proof = settings_for(numbered)
+    guarantee = guaranteed(numbered, proof, has_stop=settings.stop is not None)
     return ProfileDesign(name, source, f"swayless {swayless.__version__}", stored, settings, guarantee)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import astuple
 from typing import Any, TypeVar
 
 import numpy as np
@@ -11,9 +12,10 @@ from swayless.controller.number import number_type
 from swayless.controller.profile import Extremes, Pieces, ProfileModel, ProfileSettings, StopLaw
 from swayless.design.optimal import Command, LinearPlant, Robustness
 from swayless.machine.problems import Place
-from swayless.machine.profile_design import ProfileDesign, ProfileGuarantee
+from swayless.machine.profile_design import ProfileDesign
 from swayless.machine.profile_design_move import ProfileMove
 from swayless.machine.profile_design_numbers import NumberedMove
+from swayless.machine.profile_design_promise import ProfileGuarantee
 from swayless.machine.profile_design_record import (
     SCHEMA,
     CommandRecord,
@@ -50,7 +52,7 @@ def record_of(design: ProfileDesign) -> ProfileRecord:
         robustness.split_ratio,
         PlantRecord(_nested(plant.a), _nested(plant.b), _nested(plant.c), plant.d),
         CommandRecord(command.hold, command.initial_value, command.final_value, values),
-        GuaranteeRecord(design.guarantee.final_error_ratio, design.guarantee.stop_error_ratio),
+        GuaranteeRecord(*astuple(design.guarantee)),
         settings.hold_ratio,
         settings.max_travel,
         ExtremesRecord(settings.extremes.shape, settings.extremes.rest),
@@ -68,8 +70,7 @@ def design_of(record: ProfileRecord, place: Place) -> ProfileDesign | None:
     settings = _settings(record, place, move)
     if move is None or settings is None:
         return None
-    promise = record.guarantee
-    guarantee = ProfileGuarantee(promise.final_error_ratio, promise.stop_error_ratio)
+    guarantee = ProfileGuarantee(*astuple(record.guarantee))
     return ProfileDesign(record.name, record.source, record.generator, move, settings, guarantee)
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from swayless.controller.profile.settings import LARGEST_INPUT, LARGEST_SHAPE
 from swayless.design.optimal import Command, LinearPlant, Robustness
 from swayless.design.playing import ShapeModel, shape_model
 from swayless.design.shaper import FloatArray
@@ -17,7 +18,7 @@ from swayless.errors import DesignError
 from swayless.machine.stored_numbers import nearest_12
 
 _ROUNDING = 1e-9  # of the limits' width
-_NEAR = 1e-6  # of the largest input: how near ends of a command are to what holds the plant there
+_NEAR = 1e-9  # of the largest input: how near ends of a command are to what holds the plant there
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,12 +59,19 @@ class ProfileMove:
         self.plant.check()
         low, high = self.limits
         rate = self.rate_limit_per_s
-        if not (math.isfinite(low) and math.isfinite(high) and low < high):
-            raise DesignError(f"limit = {low!r} to {high!r}: must be finite and rise")
+        if not -LARGEST_INPUT <= low < high <= LARGEST_INPUT:
+            raise DesignError(f"limit = {low!r} to {high!r}: must rise, up to {LARGEST_INPUT:g} in size")
         if rate is not None and not (math.isfinite(rate) and rate > 0.0):
             raise DesignError(f"rate_limit = {rate!r}: must be finite and > 0")
         if not (math.isfinite(self.start) and math.isfinite(self.target)) or self.start == self.target:
             raise DesignError(f"start = {self.start!r}, target = {self.target!r}: must be finite and differ")
+        if not np.abs(self.command.values - self.command.initial_value).max() <= LARGEST_SHAPE * abs(
+            self.target - self.start
+        ):
+            raise DesignError(
+                f"start = {self.start!r}, target = {self.target!r}: inputs must be at most {LARGEST_SHAPE:g}"
+                " times the travel"
+            )
         self._check_ends(_NEAR * max(float(np.abs(self.command.values).max()), -low, high))
         self._check_limits()
 
@@ -95,8 +103,11 @@ class ProfileMove:
             )
 
     def as_stored(self) -> ProfileMove:
-        """Give the move to the 12 digits that are kept: beyond them is a solver's noise. The plant stays."""
-        given, rate, split = self.command, self.rate_limit_per_s, self.robustness.split_ratio
+        """Give the move to the 12 digits that are kept: beyond them is a solver's noise.
+
+        Plant and limits stay as they are.
+        """
+        given, split = self.command, self.robustness.split_ratio
         command = Command(
             nearest_12(given.tick_s),
             np.array([nearest_12(value) for value in given.values.tolist()]),
@@ -109,7 +120,6 @@ class ProfileMove:
             command=command,
             start=nearest_12(self.start),
             target=nearest_12(self.target),
-            rate_limit_per_s=None if rate is None else nearest_12(rate),
             robustness=Robustness(self.robustness.order, None if split is None else nearest_12(split)),
         )
 

@@ -63,16 +63,25 @@ class NumberedMove:
     @property
     def limits(self) -> tuple[float, float]:
         """The limits, or the next numbers within."""
-        dtype = dtype_of(self.number)
-        low, high = (dtype.type(limit) for limit in self.move.limits)
-        return (
-            float(low if low >= self.move.limits[0] else np.nextafter(low, dtype.type(np.inf))),
-            float(high if high <= self.move.limits[1] else np.nextafter(high, dtype.type(-np.inf))),
-        )
+        return -self.rounded_down(-self.move.limits[0]), self.rounded_down(self.move.limits[1])
+
+    @property
+    def largest_change(self) -> float | None:
+        """Largest change of the reference from tick to tick; None where the rate has no limit."""
+        rate = self.move.rate_limit_per_s
+        return None if rate is None else rate * self.move.command.tick_s
 
     def rounded(self, value: float) -> float:
         """Give the nearest number of the type."""
         return float(dtype_of(self.number).type(value))
+
+    def rounded_down(self, value: float) -> float:
+        """Give the next number of the type that is not above."""
+        near = dtype_of(self.number).type(value)
+        # Compared as doubles: numpy compares a number of its own with a Python number in its own type.
+        return float(
+            near if float(near) <= value else np.nextafter(near, dtype_of(self.number).type(-np.inf))
+        )
 
     def rounded_all(self, values: FloatArray) -> FloatArray:
         """Give the nearest numbers of the type."""

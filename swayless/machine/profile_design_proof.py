@@ -1,33 +1,38 @@
 """What a block plays, all of it, and what that leaves of the plant: the proof of a motion profile.
 
-Not for: making it.
+Not for: making it, or what is promised of it (`profile_design_promise`).
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from swayless.controller.profile import (
     Extremes,
     Pieces,
+    PlayedStops,
     ProfileModel,
     StopLaw,
     played_move,
     played_stops,
 )
-from swayless.controller.profile.compression import TOLERANCE_RATIO
-from swayless.design.playing import error_after_stops, final_error_ratio, largest_step, stops_needed
+from swayless.design.playing import (
+    error_ratio,
+    largest_step,
+    missed_by_move,
+    missed_by_stops,
+    stops_needed,
+    swing_ratio,
+)
 from swayless.design.playing.stopping import blocks
+from swayless.design.shaper import FloatArray
+from swayless.errors import DesignError
 from swayless.machine.profile_design_numbers import NumberedMove
 
 LARGEST_ERROR_RATIO = 0.01
 """A move, or a stop, that leaves more does not rest."""
-
-_STEPS = (1.0, 2.0, 5.0, 10.0)
-_LEAST_PROMISE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -42,29 +47,23 @@ class ProfileProof:
         How far the states are from rest after the move, each of its largest in the move.
     stop_error_ratio : float
         The same, after the worst of all stops; 0 where there are none.
+    final_swing_ratio, stop_swing_ratio : float
+        What the position of the plant as it is given swings by then, of the travel; 0 unless poles are split.
     largest_step : float
         Largest change of the input from tick to tick, of a move by 1.
-    largest_shape : float
-        Largest input of the table, of a move by 1.
     """
 
     extremes: Extremes
     final_error_ratio: float
     stop_error_ratio: float
+    final_swing_ratio: float
+    stop_swing_ratio: float
     largest_step: float
-    largest_shape: float
 
-    def rounding(self, numbered: NumberedMove) -> float:
-        """How far a step may exceed the limit of the rate: the last places of a reference, of a move by 1."""
-        return 8.0 * TOLERANCE_RATIO[numbered.number.name] * self.largest_shape
-
-    def max_travel(self, numbered: NumberedMove, rate_limit_per_s: float | None, most: float) -> float:
-        """Longest travel that keeps the limit of the rate, or `most` if that is less or there is none."""
-        if rate_limit_per_s is None:
-            return most
-        step = self.largest_step - self.rounding(numbered)
-        allowed = rate_limit_per_s * numbered.move.command.tick_s
-        return numbered.rounded(allowed / step) if allowed < most * step else most
+    @property
+    def largest_shape(self) -> float:
+        """Largest input of all that can be played, of a move by 1."""
+        return max(abs(shape) for shape in self.extremes.shape)
 
     def input_share(self, numbered: NumberedMove) -> float:
         """Largest share of the input's limits that the move, or a stop of it, takes: 1 at a limit."""
@@ -72,25 +71,43 @@ class ProfileProof:
         references = numbered.references(np.array(self.extremes.shape))
         return float(np.abs(references - 0.5 * (low + high)).max() / (0.5 * (high - low)))
 
-    def keeps_limits(self, numbered: NumberedMove) -> bool:
-        """Whether the move and all its stops keep input and rate."""
+    def keeps_input(self, numbered: NumberedMove) -> bool:
+        """Whether the move of the design, and all its stops, keep the limits of the input."""
         low, high = numbered.limits
         references = numbered.references(np.array(self.extremes.shape))
-        travel = self.max_travel(numbered, numbered.move.rate_limit_per_s, math.inf)
-        return bool(low <= references.min() and references.max() <= high and abs(numbered.travel) <= travel)
+        return bool(low <= references.min() and references.max() <= high)
+
+    def check_rest(self, number: str) -> None:
+        """Refuse what does not rest.
+
+        Raises
+        ------
+        DesignError
+            Naming the move, or the stop.
+        """
+        for what, left in (("command", self.final_error_ratio), ("stop", self.stop_error_ratio)):
+            if not left <= LARGEST_ERROR_RATIO:
+                raise DesignError(
+                    f"{what}: leaves {left:.2g} of the states that the move has had, in {number}: must be at"
+                    f" most {LARGEST_ERROR_RATIO:g}, the plant does not rest"
+                )
 
 
 def proved_table(numbered: NumberedMove, pieces: Pieces) -> ProfileProof:
-    """Play the table alone."""
+    """Play the table alone: as in the move of the design, and without the rounding of its references."""
     shape = pieces.values(numbered.number)
     held = numbered.hold_ratio
     inputs = np.append(shape, [0.0, held])
+    felt = numbered.felt(shape)
+    sizes = numbered.model.sizes(felt)
+    missed = np.hstack([missed_by_move(numbered.model, each) for each in (felt, shape)])
     return ProfileProof(
         Extremes((float(inputs.min()), float(inputs.max())), (0.0, 0.0)),
-        final_error_ratio(numbered.model, numbered.felt(shape)),
+        error_ratio(numbered.model, missed, sizes),
+        0.0,
+        swing_ratio(numbered.model, missed),
         0.0,
         largest_step(np.zeros(1), shape[:, np.newaxis], np.array([held])),
-        float(np.abs(shape).max()),
     )
 
 
@@ -102,31 +119,25 @@ def proved(numbered: NumberedMove, pieces: Pieces, model: ProfileModel, stop: St
     move = played_move(pieces, model, numbered.number)
     felt = numbered.felt(move.shape)
     states, sizes = numbered.model.states(felt)[1:-1], numbered.model.sizes(felt)
-    extremes, error, step = table.extremes, 0.0, table.largest_step
+    extremes, error, swing, step = table.extremes, 0.0, 0.0, table.largest_step
     for begin, end in blocks(stops_needed(len(felt), stop.ticks), stop.ticks):
         part = slice(begin, end)
         stops = played_stops(stop, move.aborts[part], numbered.number)
         extremes = extremes.with_those_of(stops.extremes)
-        left = error_after_stops(
-            numbered.model, sizes, states[part], numbered.felt(stops.inputs), stops.rests
-        )
-        error = max(error, left)
+        missed = _missed_by(stops, numbered, states[part])
+        error = max(error, error_ratio(numbered.model, missed, sizes))
+        swing = max(swing, swing_ratio(numbered.model, missed))
         held = numbered.hold_ratio * stops.rests
         step = max(step, largest_step(move.shape[begin:end], stops.inputs, held))
-    return ProfileProof(extremes, table.final_error_ratio, error, step, table.largest_shape)
+    return replace(
+        table,
+        extremes=extremes,
+        stop_error_ratio=error,
+        stop_swing_ratio=swing,
+        largest_step=step,
+    )
 
 
-def promised(measured: float) -> float:
-    """Promise an error: the next 1, 2 or 5 of a power of ten above twice what was measured.
-
-    Another mathematical library may measure a little more.
-
-    Examples
-    --------
-    >>> promised(3.1e-10), promised(1e-16)
-    (1e-09, 1e-12)
-    """
-    least = max(2.0 * measured, _LEAST_PROMISE)
-    power = 10.0 ** math.floor(math.log10(least))
-    text = next(f"{step * power:.0e}" for step in _STEPS if step * power >= least * (1.0 - 1e-9))
-    return float(text)
+def _missed_by(stops: PlayedStops, numbered: NumberedMove, states: FloatArray) -> FloatArray:
+    """Give what stops leave in the move of the design, with all rounding of its references."""
+    return missed_by_stops(numbered.model, states, numbered.felt(stops.inputs), stops.rests)

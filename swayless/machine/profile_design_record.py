@@ -10,18 +10,22 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from swayless.controller.profile.pieces import LARGEST_DEGREE, LARGEST_LENGTH
+from swayless.controller.profile.settings import LARGEST_INPUT
 from swayless.design.optimal.linear_plant import LARGEST_ORDER
 from swayless.design.optimal.robustification import LARGEST_ROBUST_ORDER
 from swayless.design.optimal.task import LARGEST_TICKS
 from swayless.machine.checks import choice, integer
 from swayless.machine.design_members import FINITE, NAME, NOT_NEGATIVE, POSITIVE, TEXT
-from swayless.machine.record import Member, Record, one, optional, several
+from swayless.machine.record import Member, Record, one, optional, several, where_needed
+from swayless.machine.stored_numbers import real
 
 SCHEMA = "swayless.profile/1"
 
 MOST_STATES = 64
 
 _EXACT = Member(FINITE.check)
+_TICK = real("from 1e-06 to 1", lambda value: 1e-6 <= value <= 1.0)
+_INPUT = Member(real(f"at most {LARGEST_INPUT:g} in size", lambda value: abs(value) <= LARGEST_INPUT).check)
 _PLANT_ROW = several(_EXACT, at_least=1, at_most=LARGEST_ORDER)
 _STATES = several(_EXACT, at_least=1, at_most=MOST_STATES)
 _GAINS = several(_EXACT, at_least=2, at_most=MOST_STATES + 1)
@@ -96,6 +100,10 @@ class GuaranteeRecord(Record):
 
     final_error_ratio: Annotated[float, NOT_NEGATIVE]
     stop_error_ratio: Annotated[float, NOT_NEGATIVE]
+    rounding_gain: Annotated[float, NOT_NEGATIVE]
+    rate_excess_ratio: Annotated[float | None, where_needed(NOT_NEGATIVE)]
+    final_swing_ratio: Annotated[float | None, where_needed(NOT_NEGATIVE)]
+    stop_swing_ratio: Annotated[float | None, where_needed(NOT_NEGATIVE)]
 
 
 @dataclass(frozen=True)
@@ -107,11 +115,11 @@ class ProfileRecord(Record):
     source: Annotated[str, TEXT]
     generator: Annotated[str, TEXT]
     number: Annotated[str, Member(choice("number type", ("double", "float")))]
-    tick_s: Annotated[float, POSITIVE]
+    tick_s: Annotated[float, _TICK]
     start: Annotated[float, FINITE]
     target: Annotated[float, FINITE]
-    limit: Annotated[tuple[float, ...], _PAIR]
-    rate_limit_per_s: Annotated[float | None, optional(POSITIVE)]
+    limit: Annotated[tuple[float, ...], several(_INPUT, at_least=2, at_most=2)]
+    rate_limit_per_s: Annotated[float | None, optional(Member(POSITIVE.check))]
     robust_order: Annotated[int, Member(integer(0, LARGEST_ROBUST_ORDER))]
     split_ratio: Annotated[float | None, optional(POSITIVE)]
     plant: Annotated[PlantRecord, one(PlantRecord)]

@@ -13,16 +13,21 @@ from swayless.controller.profile import (
     ProfileStatus,
     StopLaw,
 )
-from swayless.controller.profile.compression import TOLERANCE_RATIO, compressed, raw_pieces
-from swayless.controller.profile.settings import LARGEST_POSITION
+from swayless.controller.profile.compression import TABLE_RATIOS, TOLERANCE_RATIO, compressed, raw_pieces
 from swayless.design.playing import ShapeLimits, Stop, shortest_stop
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 from swayless.machine.profile_design_numbers import NumberedMove
-from swayless.machine.profile_design_proof import LARGEST_ERROR_RATIO, ProfileProof, proved, proved_table
+from swayless.machine.profile_design_proof import ProfileProof, proved, proved_table
+from swayless.machine.profile_design_rate import check_rate, keeps_rate, longest_travel
 
-ADDED_ERROR_RATIO = {"double": 1e-10, "float": 1e-5}
-"""What pieces may add to the error that the plain table leaves at the end."""
+ADDED_ERROR_RATIO = {"double": 2.0**-36, "float": 2.0**-23}
+"""What pieces may add to the error that the plain table leaves at the end: in double the rounding of a
+command to twelve digits, in float a unit of the last place.
+"""
+
+LEAST_GAIN_RATIO = 0.05
+"""Of the move: a stop that brings rest no sooner than that is not worth its table."""
 
 
 def settings_for(numbered: NumberedMove) -> tuple[ProfileSettings, ProfileProof]:
@@ -36,10 +41,8 @@ def settings_for(numbered: NumberedMove) -> tuple[ProfileSettings, ProfileProof]
     pieces = _pieces(numbered)
     model = block_model(numbered)
     stop, proof = _stop(numbered, pieces, model)
-    if proof.stop_error_ratio > LARGEST_ERROR_RATIO:
-        raise DesignError(
-            f"stop: leaves {proof.stop_error_ratio:.2g} of the states in {numbered.number.name}"
-        )
+    proof.check_rest(numbered.number.name)
+    check_rate(numbered, proof)
     move = numbered.move
     settings = ProfileSettings(
         move.command.tick_s,
@@ -55,11 +58,6 @@ def settings_for(numbered: NumberedMove) -> tuple[ProfileSettings, ProfileProof]
     )
     check_own_move(numbered, settings)
     return settings, proof
-
-
-def longest_travel(numbered: NumberedMove, proof: ProfileProof) -> float:
-    """Give the longest travel that the limit of the rate allows."""
-    return proof.max_travel(numbered, numbered.move.rate_limit_per_s, LARGEST_POSITION)
 
 
 def block_model(numbered: NumberedMove) -> ProfileModel:
@@ -91,32 +89,35 @@ def check_own_move(numbered: NumberedMove, settings: ProfileSettings) -> None:
 def _pieces(numbered: NumberedMove) -> Pieces:
     """Find the smallest table that leaves hardly more at the end than the plain one, within the limits."""
     raw = proved_table(numbered, raw_pieces(numbered.shape))
-    if raw.final_error_ratio > LARGEST_ERROR_RATIO:
-        raise DesignError(
-            f"command: leaves {raw.final_error_ratio:.2g} of the states that the move has had: must be at"
-            f" most {LARGEST_ERROR_RATIO:g}, the plant does not rest"
-        )
+    raw.check_rest(numbered.number.name)
     allowed = raw.final_error_ratio + ADDED_ERROR_RATIO[numbered.number.name]
 
     def is_kept(pieces: Pieces) -> bool:
         found = proved_table(numbered, pieces)
-        return found.final_error_ratio <= allowed and found.keeps_limits(numbered)
+        return found.final_error_ratio <= allowed and _keeps_limits(numbered, found)
 
-    return compressed(numbered.shape, numbered.number, is_kept)
+    number = numbered.number
+    tried = [compressed(numbered.shape, number, ratio, is_kept) for ratio in TABLE_RATIOS[number.name]]
+    return min(tried, key=lambda pieces: pieces.stored_bytes(number))
 
 
 def _stop(numbered: NumberedMove, pieces: Pieces, model: ProfileModel) -> tuple[StopLaw | None, ProfileProof]:
-    """Find the shortest stop, and the smallest table of it that keeps the limits in the number type."""
+    """Find the shortest stop, if it gains enough, and the smallest table of it that keeps the limits."""
     shape = pieces.values(numbered.number)
     found = shortest_stop(numbered.model, shape, _shape_limits(numbered))
-    if found is None:
+    if found is None or len(found.gains) > (1.0 - LEAST_GAIN_RATIO) * (shape.size - 1):
         return None, proved(numbered, pieces, model, None)
     for gains in _tables(numbered, found, shape):
         stop = StopLaw(gains, numbered.rounded_all(found.rest))
         proof = proved(numbered, pieces, model, stop)
-        if proof.keeps_limits(numbered):
+        if _keeps_limits(numbered, proof):
             return stop, proof
     raise DesignError(f"stop: in {numbered.number.name} its rounding exceeds the limits; widen them")
+
+
+def _keeps_limits(numbered: NumberedMove, proof: ProfileProof) -> bool:
+    """Whether the move of the design and all its stops keep input and rate."""
+    return proof.keeps_input(numbered) and keeps_rate(numbered, proof)
 
 
 def _tables(numbered: NumberedMove, found: Stop, shape: FloatArray) -> tuple[Pieces, Pieces]:
@@ -124,7 +125,8 @@ def _tables(numbered: NumberedMove, found: Stop, shape: FloatArray) -> tuple[Pie
     # What the last input is multiplied by is made as large as the states are, so that all count alike.
     units = np.ones(found.rest.size)
     units[-1] = 2.0 ** np.round(np.log2(np.abs(shape).max()))
-    few = compressed(numbered.rounded_all(found.gains * units), numbered.number)
+    ratio = TOLERANCE_RATIO[numbered.number.name]
+    few = compressed(numbered.rounded_all(found.gains * units), numbered.number, ratio)
     return Pieces(few.lengths, few.coefficients / units), raw_pieces(numbered.rounded_all(found.gains))
 
 

@@ -161,12 +161,10 @@ def test_before_the_first_move_the_block_holds_at_start_or_at_the_last_good_one(
 def test_the_rate_keeps_its_limit_between_accepted_ticks(kind, history):
     block = settings_of(*kind)
     most = 40.0 * block.limits[1] * block.tick_s
-    # Two units of the last place of the largest reference: each of the two that differ is rounded to one.
-    near = 2.0 * block.limits[1] * (2.0**-38 if kind[1] == "double" else 2.0**-20)
     has_moved = False
     for before, (_, output) in steps(run(block, history)):
         if has_moved and before[1].busy:
-            assert abs(float(output.reference) - float(before[1].reference)) <= most + near
+            assert abs(float(output.reference) - float(before[1].reference)) <= most
         has_moved = has_moved or output.busy
 
 

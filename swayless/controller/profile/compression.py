@@ -13,8 +13,13 @@ from swayless.controller.profile.pieces import LARGEST_DEGREE, LARGEST_LENGTH, P
 from swayless.design.shaper import FloatArray
 
 TOLERANCE_RATIO = {"double": 2.0**-40, "float": 2.0**-22}
-"""How far pieces may be off, of the largest value. In double the twelfth digit, the last that a design keeps:
-solving for a command leaves noise there. In float two units of the last place.
+"""How far pieces may be off, of the largest value: in double the twelfth decimal, in float two units of the
+last place.
+"""
+
+TABLE_RATIOS = {"double": (TOLERANCE_RATIO["double"], 2.0**-36), "float": (TOLERANCE_RATIO["float"],)}
+"""The same, of the table of a command, the finest first. A command is kept to twelve digits: where a value
+begins with a 1, rounding is up to five of the twelfth decimal, and no polynomial comes nearer.
 """
 
 _SAMPLES = 64
@@ -31,13 +36,16 @@ def raw_pieces(values: FloatArray) -> Pieces:
     return Pieces(np.ones(len(values), dtype=np.int64), values[:, np.newaxis])
 
 
-def tolerance(values: FloatArray, number: NumberType) -> float:
-    """Give how far pieces may be off, in units of the values."""
-    return float(TOLERANCE_RATIO[number.name] * np.abs(values).max())
+def widest_tolerance(values: FloatArray, number: NumberType) -> float:
+    """Give how far the pieces of a command may be off, in units of its values."""
+    return float(TABLE_RATIOS[number.name][-1] * np.abs(values).max())
 
 
 def compressed(
-    values: FloatArray, number: NumberType, is_kept: Callable[[Pieces], bool] = lambda _: True
+    values: FloatArray,
+    number: NumberType,
+    near_ratio: float,
+    is_kept: Callable[[Pieces], bool] = lambda _: True,
 ) -> Pieces:
     """Find the smallest pieces that give all values within the tolerance.
 
@@ -47,6 +55,8 @@ def compressed(
         One, or a row, for each tick; numbers of the type.
     number : NumberType
         ``double`` or ``float``.
+    near_ratio : float
+        How far pieces may be off, of the largest value, such as `TOLERANCE_RATIO`.
     is_kept : callable
         Whether pieces keep what is promised, by the values that they give when played.
 
@@ -61,13 +71,13 @@ def compressed(
 
     >>> from swayless.controller.number import number_type
     >>> double = number_type("double")
-    >>> compressed(np.repeat([1.0, -1.0], 500), double).lengths.tolist()
+    >>> compressed(np.repeat([1.0, -1.0], 500), double, 1e-12).lengths.tolist()
     [500, 500]
-    >>> cubic = compressed(np.linspace(0.0, 1.0, 1000) ** 3, double)
+    >>> cubic = compressed(np.linspace(0.0, 1.0, 1000) ** 3, double, 1e-12)
     >>> cubic.lengths.tolist(), cubic.coefficients.round(12).tolist()
     ([1000], [[0.125, 0.375, 0.375, 0.125]])
     """
-    near = tolerance(values, number)
+    near = near_ratio * float(np.abs(values).max())
     best = raw_pieces(values)
     # Switching first, it costs least to try; then the degrees that need the fewest pieces.
     for degree in (0, *range(LARGEST_DEGREE, 0, -1)):

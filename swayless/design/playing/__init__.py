@@ -3,7 +3,14 @@
 Not for: finding the command (`swayless.design.optimal`), or number types.
 """
 
-from swayless.design.playing.proof import error_after_stops, final_error_ratio, largest_step
+from swayless.design.playing.proof import (
+    error_ratio,
+    largest_step,
+    missed_by_move,
+    missed_by_stops,
+    noise_gain,
+    swing_ratio,
+)
 from swayless.design.playing.shape_model import ShapeModel, shape_model
 from swayless.design.playing.stopping import ShapeLimits, Stop, shortest_stop, stops_needed
 
@@ -11,10 +18,13 @@ __all__ = [
     "ShapeLimits",
     "ShapeModel",
     "Stop",
-    "error_after_stops",
-    "final_error_ratio",
+    "error_ratio",
     "largest_step",
+    "missed_by_move",
+    "missed_by_stops",
+    "noise_gain",
     "shape_model",
     "shortest_stop",
     "stops_needed",
+    "swing_ratio",
 ]

@@ -13,7 +13,7 @@ import numpy as np
 
 from swayless.design.optimal import LinearPlant, Robustness
 from swayless.design.optimal.command import Hold
-from swayless.design.optimal.linear_plant import ComplexArray
+from swayless.design.optimal.linear_plant import ComplexArray, mode_vectors
 from swayless.design.optimal.robustification import jordan_chain, rest_conditions
 from swayless.design.optimal.sampling import Sampled, sampled
 from swayless.design.shaper import FloatArray
@@ -37,23 +37,31 @@ class ShapeModel:
         D.
     kept : ndarray, shape (r, states)
         Which combinations of states must rest.
-    final : ndarray, shape (r,)
-        Their values at rest at position 1.
+    at_rest : ndarray, shape (states,)
+        States at rest at position 1.
     hold_ratio : float
         Input that holds the plant at position 1.
+    swings : ndarray of complex, shape (modes, states)
+        Amplitude of the position, by each mode that need not rest: the plant's own, where poles are split.
     """
 
     system: Sampled
     output: FloatArray
     feedthrough: float
     kept: FloatArray
-    final: FloatArray
+    at_rest: FloatArray
     hold_ratio: float
+    swings: ComplexArray
 
     @property
     def order(self) -> int:
         """Number of states."""
         return self.output.size
+
+    @cached_property
+    def final(self) -> FloatArray:
+        """Kept combinations at rest at position 1, shape (r,)."""
+        return np.asarray(self.kept @ self.at_rest)
 
     def sizes(self, shape: FloatArray) -> FloatArray:
         """Give the largest value of each kept combination of states during a move, shape (r,)."""
@@ -75,7 +83,13 @@ class ShapeModel:
         """Give the same model with states in other units, shape (states,)."""
         system = Sampled(self.system.a * sizes / sizes[:, np.newaxis], self.system.b / sizes)
         return ShapeModel(
-            system, self.output * sizes, self.feedthrough, self.kept * sizes, self.final, self.hold_ratio
+            system,
+            self.output * sizes,
+            self.feedthrough,
+            self.kept * sizes,
+            self.at_rest / sizes,
+            self.hold_ratio,
+            self.swings * sizes,
         )
 
 
@@ -122,19 +136,22 @@ def shape_model(
     speeds = np.abs(plant.poles_rad_s)
     held = 0.0 if speeds.min() <= _AT_0 * speeds.max() else held  # what is left there is rounding
     a, b, at_rest = _with_chains(plant, robustness, at_rest, held)
-    kept = np.eye(b.size) if robustness.split_ratio is None else _all_but_the_modes(plant, b.size)
+    kept, swings = np.eye(b.size), np.zeros((0, b.size), dtype=np.complex128)
+    if robustness.split_ratio is not None:
+        kept, swings = _all_but_the_modes(plant, b.size), _swings(plant, b.size)
     output = np.append(plant.c, np.zeros(b.size - plant.order))
     system = sampled(a, b, tick_s)
     if hold == "zero-order":
-        return ShapeModel(system, output, plant.d, kept, kept @ at_rest, held)
+        return ShapeModel(system, output, plant.d, kept, at_rest, held, swings)
     last = _made_by_a_slope(a, b, tick_s)
     return ShapeModel(
         Sampled(system.a, system.a @ last + system.b - last),
         output,
         plant.d + float(output @ last),
         kept,
-        kept @ (at_rest - held * last),
+        at_rest - held * last,
         held,
+        swings,
     )
 
 
@@ -186,6 +203,15 @@ def _all_but_the_modes(plant: LinearPlant, states: int) -> FloatArray:
     ringing = [vectors[:, np.abs(poles - pole).argmin()] for pole in plant.ringing_poles_rad_s]
     rows = null_space(np.array([part for vector in ringing for part in (vector.real, vector.imag)])).T
     return np.asarray(block_diag(rows, np.eye(states - plant.order)))
+
+
+def _swings(plant: LinearPlant, states: int) -> ComplexArray:
+    """Give rows whose products with the states are amplitudes of the position, one for each ringing mode."""
+    rows = np.zeros((plant.ringing_poles_rad_s.size, states), dtype=np.complex128)
+    for row, pole in zip(rows, plant.ringing_poles_rad_s, strict=True):
+        after, before = mode_vectors(plant, complex(pole))
+        row[: plant.order] = 2.0 * (plant.c @ after) * before  # of the pole and its conjugate
+    return rows
 
 
 def _made_by_a_slope(a: FloatArray, b: FloatArray, tick_s: float) -> FloatArray:

@@ -55,7 +55,7 @@ def test_the_local_variable_goes_from_minus_one_to_one():
 def test_what_is_found_is_within_the_tolerance_and_no_larger_than_the_plain_table(table):
     number, pieces = table
     values = pieces.values(number)
-    found = compressed(values, number)
+    found = compressed(values, number, TOLERANCE_RATIO[number.name])
     near = TOLERANCE_RATIO[number.name] * np.abs(values).max()
     assert (np.abs(found.values(number) - values) <= near).all()
     assert found.stored_bytes(number) <= raw_pieces(values).stored_bytes(number)
@@ -64,7 +64,7 @@ def test_what_is_found_is_within_the_tolerance_and_no_larger_than_the_plain_tabl
 @pytest.mark.parametrize("number", NUMBERS)
 def test_switch_times_are_found_bit_by_bit(number):
     values = np.repeat([0.75, -0.25, 0.5], [300, 1, 700])
-    found = compressed(values, number_type(number))
+    found = compressed(values, number_type(number), TOLERANCE_RATIO[number])
     assert found.lengths.tolist() == [300, 1, 700]
     assert found.degree == 0
     assert (found.values(number_type(number)) == values).all()
@@ -74,14 +74,18 @@ def test_switch_times_are_found_bit_by_bit(number):
 def test_a_polynomial_of_degree_7_over_4000_ticks_is_one_piece(number, expected):
     time = np.linspace(0.0, 1.0, 4000)
     values = 35.0 * time**4 - 84.0 * time**5 + 70.0 * time**6 - 20.0 * time**7
-    found = compressed(values.astype(np.float32) if number == "float" else values, number_type(number))
+    found = compressed(
+        values.astype(np.float32) if number == "float" else values,
+        number_type(number),
+        TOLERANCE_RATIO[number],
+    )
     assert (found.degree, found.lengths.tolist()) == (7, [4000])
     assert found.stored_bytes(number_type(number)) == expected  # 8 coefficients, a step and a length
 
 
 def test_noise_is_kept_as_it_is():
     values = np.random.default_rng(5).normal(size=500)
-    found = compressed(values, number_type("double"))
+    found = compressed(values, number_type("double"), TOLERANCE_RATIO["double"])
     assert found.is_raw
     assert (found.values(number_type("double")) == values).all()
 
@@ -89,9 +93,9 @@ def test_noise_is_kept_as_it_is():
 def test_pieces_that_do_not_keep_what_is_promised_are_not_taken():
     values = np.repeat([1.0, -1.0], 50)
     double = number_type("double")
-    assert compressed(values, double).degree == 0
-    assert compressed(values, double, lambda pieces: pieces.degree != 0).degree == 1
-    assert compressed(values, double, lambda pieces: False).is_raw
+    assert compressed(values, double, 1e-12).degree == 0
+    assert compressed(values, double, 1e-12, lambda pieces: pieces.degree != 0).degree == 1
+    assert compressed(values, double, 1e-12, lambda pieces: False).is_raw
 
 
 @pytest.mark.parametrize(

@@ -115,12 +115,17 @@ def broken(document, path, value):
     [
         (["schema"], "swayless.profile/2", "schema"),
         (["number"], "int32", 'number = "int32": unknown number type'),
-        (["tick_s"], 0, "tick_s = 0: must be finite and > 0"),
+        (["tick_s"], 0, "tick_s = 0: must be from 1e-06 to 1"),
+        (["tick_s"], 1e308, "tick_s = 1e+308: must be from 1e-06 to 1"),
         (["tick_s"], 0.006, "model: is not the one of this plant, tick and robustness"),
         (["limit"], [1.0], "limit = [1.0]: must be an array of 2"),
+        (["limit"], [-5.0, 1e308], "limit[1] = 1e+308: must be at most 1e+30 in size"),
         (["limit"], [-4.0, 5.0], "command: -4.68263 to 4.68263: the limit is -4 to 5"),
         (["rate_limit_per_s"], 1.0, "command: changes by"),
         (["start"], 1.0, "start = 1.0, target = 1.0: must be finite and differ"),
+        (["start"], 1e-6, "command: initial_value = 0: the plant stays at 1e-06 under 1e-06 only"),
+        (["target"], 1.0 + 1e-6, "command: final_value = 1: the plant stays at 1 under 1 only"),
+        (["start"], 1.0 - 1e-9, "inputs must be at most 1e+09 times the travel"),
         (["start"], 0.5, "command: initial_value = 0: the plant stays at 0.5 under 0.5 only"),
         (["robust_order"], 9, "robust_order = 9: must be an integer from 0 to 6"),
         (["robust_order"], 0, "model: is not the one of this plant, tick and robustness"),
@@ -130,13 +135,15 @@ def broken(document, path, value):
         (["plant", "c"], [0.0, 1.6], "command: final_value"),
         (["command", "hold"], "second-order", "command.hold"),
         (["command", "values"], [], "command.values"),
+        (["command", "values", 3], 0.0, "table: does not play the command from start to target"),
         (["command", "values", 3], "x", 'command.values[3] = "x": must be a number'),
         (["hold_ratio"], 1.5, "hold_ratio: = 1.5: must be 1.0, as of this plant"),
         (["max_travel"], -1.0, "max_travel: profile: max_travel = -1.0: must be above 0"),
+        (["max_travel"], 1.0, "max_travel: = 1.0: must be 1125899906842624.0"),
         (["extremes", "shape"], [-4.7, 4.7], "extremes: must be"),
         (["extremes", "rest"], [0.0, 0.1], "extremes: must be"),
         (["table", "lengths", 0], 11, "table: lasts 59 ticks, the command 58"),
-        (["table", "coefficients", 1, 0], 2.2, "guarantee.final_error_ratio: promises"),
+        (["table", "coefficients", 1, 0], 2.2, "table: does not play the command from start to target"),
         (["table", "coefficients", 1], [1.0, 2.0], "table: rows must be of one length"),
         (["model", "change", 0, 0], 0.01, "model: is not the one of this plant"),
         (["model", "output"], [1.0], "model: profile: model of shapes"),
@@ -144,6 +151,10 @@ def broken(document, path, value):
         (["stop", "rest", 0], 0.5, "guarantee.stop_error_ratio: promises"),
         (["stop", "rest"], [1.0, 2.0], "stop: profile: stop of gains"),
         (["guarantee", "final_error_ratio"], 1e-18, "guarantee.final_error_ratio: promises 1e-18"),
+        (["guarantee", "final_error_ratio"], 1e-9, "guarantee.final_error_ratio: promises 1e-09"),
+        (["guarantee", "stop_error_ratio"], 1e308, "guarantee.stop_error_ratio: promises 1e+308"),
+        (["guarantee", "rounding_gain"], 1e-18, "guarantee.rounding_gain: promises 1e-18"),
+        (["guarantee", "final_swing_ratio"], 0.1, "guarantee.final_swing_ratio: = 0.1: must be None"),
         (["surplus"], 1, "surplus: unknown key"),
     ],
 )
@@ -169,7 +180,7 @@ def test_garbage_is_refused(tmp_path, text):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"limits": (5.0, -5.0)}, "limit = 5.0 to -5.0: must be finite and rise"),
+        ({"limits": (5.0, -5.0)}, "limit = 5.0 to -5.0: must rise, up to 1e+30 in size"),
         ({"rate_limit_per_s": 0.0}, "rate_limit = 0.0: must be finite and > 0"),
         ({"target": 2.0}, "command: final_value = 1: the plant stays at 2 under 2 only"),
         ({"limits": (-1.0, 1.0)}, "command: -4.68263 to 4.68263: the limit is -1 to 1"),
@@ -185,37 +196,6 @@ def test_a_command_that_does_not_rest_is_refused(oscillator):
     swinging = Command(0.005, np.full(58, 1.0), 1.0)
     with pytest.raises(DesignError, match=r"command: leaves .* of the states that the move has had"):
         make_profile_design("osc", "osc.toml", replace(oscillator, command=swinging))
-
-
-def gentle_move():
-    """A mass that is moved smoothly, at a quarter of what the rate may be: its stops change faster."""
-    ticks = np.arange(40)
-    pushes = np.sin(2.0 * np.pi * (ticks + 0.5) / 40.0)
-    target = float(0.01 * np.sum(pushes * (39.5 - ticks)))
-    rate = 40.0 * np.abs(np.diff(pushes)).max()
-    return ProfileMove(MASS, Command(0.1, pushes, 0.0), (-1.5, 1.5), 0.0, target, rate_limit_per_s=rate)
-
-
-@pytest.mark.parametrize("number", ["double", "float"])
-def test_no_travel_that_is_accepted_breaks_the_limit_of_the_rate_by_any_stop(number):
-    move = gentle_move()
-    settings = make_profile_design("mass", "mass.toml", replace(move, limits=(-9.0, 9.0)), number).settings
-    scalar, longest = settings.number.scalar, settings.max_travel
-    beyond = np.nextafter(scalar(longest), scalar(np.inf))
-    assert not MotionProfile(settings).step(ProfileInput(True, False, scalar(0), beyond)).busy
-    steps = []
-    for abort_at in range(1, 42):
-        profile = MotionProfile(settings)
-        played = [0.0]
-        for tick in range(42):
-            pins = ProfileInput(True, tick == abort_at, scalar(0), scalar(-longest))
-            played.append(float(profile.step(pins).reference))
-        steps.append(np.abs(np.diff(played)).max())
-    # What decision 31 says of rounding: 8 parts in 2**40 or 2**22 of the largest input.
-    near = 9.0 * 8.0 / (2.0**40 if number == "double" else 2.0**22)
-    assert max(steps) <= move.rate_limit_per_s * 0.1 + near
-    assert max(steps) == pytest.approx(move.rate_limit_per_s * 0.1, rel=1e-4)  # and the bound is sharp
-    assert steps[-1] < max(steps)  # a stop, not the move, is what sets it
 
 
 def test_under_a_first_order_hold_the_block_plays_what_a_drive_joins_by_straight_lines():

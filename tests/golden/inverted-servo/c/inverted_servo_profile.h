@@ -8,13 +8,13 @@
  * At most 386 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
  * References from -0.1 to 1.1; a move that could need more is refused.
  * Design: 0 to 1, zero-order hold; SHA-256:
- * 78a88528e94647cddd566b35eae36db670d4fcbb4af4f55ab24600ab3767f00b
- * Proved with these numbers: a move leaves at most 1e-11 of each state's largest,
- * an abort at any tick 1e-11.
+ * 5c300dab1ad7b720e506b2838d3149c8f551c827659b4364b99585d10ae2b9f5
+ * Proved with these numbers: a move leaves at most 2e-11 of each state's largest,
+ * an abort at any tick 2e-11.
  * Limits are kept. A stop rests at 0 to 1 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
- * Memory: 232 bytes of state at most, 8686 of tables.
+ * Memory: 232 bytes of state at most, 7876 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.

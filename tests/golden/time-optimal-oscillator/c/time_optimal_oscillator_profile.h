@@ -8,7 +8,7 @@
  * At most 51 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
  * References from -5 to 5; a move that could need more is refused.
  * Design: 0 to 1, robust of order 1, zero-order hold; SHA-256:
- * 6c6fd26c23857fbe48a0f79d37cf47a6df53dc37cfbbe35f3a19fa977365fe73
+ * eca898c3ac4f7daedf2814ab554507868d843acaab0b832fcc57d06180e6d57c
  * Proved with these numbers: a move leaves at most 1e-12 of each state's largest,
  * an abort at any tick 1e-12.
  * Limits are kept. A stop rests at 0 to 0.377 of the travel.
