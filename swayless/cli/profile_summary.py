@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from swayless.cli.console import counted, per_cent
@@ -13,6 +14,10 @@ if TYPE_CHECKING:
     from swayless.codegen.profile_model import ProfileOrigin
     from swayless.controller.profile import Pieces
     from swayless.machine.profile_design import ProfileDesign
+
+
+NOTED_ERROR_RATIO = 1e-3
+"""What is left of a state and worth a note."""
 
 
 def profile_origin(design: ProfileDesign, text: str) -> ProfileOrigin:
@@ -26,16 +31,16 @@ def profile_origin(design: ProfileDesign, text: str) -> ProfileOrigin:
     """
     from swayless.codegen.profile_model import ProfileOrigin
 
-    move, promise = design.move, design.guarantee
-    robust = f", robust of order {move.robustness.order}" if move.robustness.order else ""
-    off = _where_off(design)
+    move = design.move
     facts = (
-        f"Design: {move.start:.6g} to {move.target:.6g}{robust}, {move.command.hold} hold; SHA-256:",
+        f"Design: {move.start:.6g} to {move.target:.6g}{_asked(design)}, {move.command.hold} hold; SHA-256:",
         hashlib.sha256(text.encode("ascii")).hexdigest(),
-        f"Proved with these numbers: a move leaves at most {promise.final_error_ratio:g} of each state's"
-        " largest,",
-        f"an abort at any tick {_after_aborts(design):g}{off}.",
-        f"Limits are kept. {_where_stops_rest(design)}",
+        f"Proved with these numbers{_where_off(design)}: the move of the design leaves at most",
+        f"{design.guarantee.final_error_ratio:g} of each state's largest, an abort at any tick of it"
+        f" {_after_aborts(design):g}.",
+        *(f"{sentence}." for sentence in _swings(design)),
+        f"{_rounding(design)}.",
+        f"Limits are kept{_rate_kept(design)}. {_where_stops_rest(design)}",
     )
     return ProfileOrigin(design.name, design.generator, design.source, facts, (move.start, move.target))
 
@@ -49,7 +54,7 @@ def profile_facts(design: ProfileDesign, origin: str) -> dict[str, Any]:
     origin : str
         How it stands to the stored one.
     """
-    settings, promise = design.settings, design.guarantee
+    settings = design.settings
     return {
         "design": origin,
         "number": settings.number.name,
@@ -62,10 +67,8 @@ def profile_facts(design: ProfileDesign, origin: str) -> dict[str, Any]:
         "max_travel": settings.max_travel,
         "robust_order": design.move.robustness.order,
         "split_ratio": design.move.robustness.split_ratio,
-        "guarantee": {
-            "final_error_ratio": promise.final_error_ratio,
-            "stop_error_ratio": promise.stop_error_ratio,
-        },
+        "rate_limit_per_s": design.move.rate_limit_per_s,
+        "guarantee": asdict(design.guarantee),
         "largest_input_ratio": _largest_input_ratio(design),
         "table": _table(settings.pieces, design.table_bytes),
         "stop_table": settings.stop and _table(settings.stop.pieces, design.stop_bytes),
@@ -93,19 +96,66 @@ def profile_lines(design: ProfileDesign, origin: str) -> Iterator[str]:
         yield _table_line("stop", settings.stop.pieces, design.stop_bytes)
     share = per_cent(_largest_input_ratio(design))
     yield (
-        f"proved: a move leaves at most {promise.final_error_ratio:g} of each state's largest, an abort at"
-        f" any tick {_after_aborts(design):g}{_where_off(design)}; both take up to {share} of the limits"
+        f"proved{_where_off(design)}: the move of the design leaves at most {promise.final_error_ratio:g} of"
+        f" each state's largest, an abort at any tick of it {_after_aborts(design):g}; both take up to"
+        f" {share} of the limits{_rate_kept(design)}"
     )
+    yield from _swings(design)
+    yield _rounding(design)
+    if _after_aborts(design) > NOTED_ERROR_RATIO:
+        yield _much_is_left(design)
     if settings.stop is not None:
         yield _where_stops_rest(design)[:-1]
     if origin != "new":
         yield f"design: {origin}"
 
 
+def _asked(design: ProfileDesign) -> str:
+    """Say what the command was asked to keep or to be robust against."""
+    order, split = design.move.robustness.order, design.move.robustness.split_ratio
+    rate = design.move.rate_limit_per_s
+    robust = f", robust of order {order}" if order else ""
+    return (
+        robust
+        + ("" if split is None else f", ei {per_cent(split)}")
+        + ("" if rate is None else f", rate limit {rate:.6g} a second")
+    )
+
+
 def _where_off(design: ProfileDesign) -> str:
-    """Say for which plant the promise is, where poles were split: the nominal one swings a little."""
+    """Say for which plants the promise is, where poles were split."""
     split = design.move.robustness.split_ratio
-    return "" if split is None else f", where a frequency is {per_cent(split)} off"
+    return "" if split is None else f" where frequencies are {per_cent(split)} off"
+
+
+def _swings(design: ProfileDesign) -> Iterator[str]:
+    """Say what the plant keeps that is as it was given, where poles were split."""
+    move, stop = design.guarantee.final_swing_ratio, design.guarantee.stop_swing_ratio
+    if move is not None and stop is not None:
+        after = f"{per_cent(move)} of the travel, after an abort {per_cent(max(move, stop))}"
+        yield f"The plant as given swings then by up to {after}"
+
+
+def _rounding(design: ProfileDesign) -> str:
+    """Say what other moves may leave."""
+    return (
+        f"Another start or travel T adds at most {design.guarantee.rounding_gain:g} R / |T|, R its largest"
+        " reference"
+    )
+
+
+def _rate_kept(design: ProfileDesign) -> str:
+    """Say how strictly the limit of the rate is kept, where there is one."""
+    excess = design.guarantee.rate_excess_ratio
+    if excess is None:
+        return ""
+    return ", that of the rate too" if excess == 0.0 else f", that of the rate to {excess:g} of itself"
+
+
+def _much_is_left(design: ProfileDesign) -> str:
+    """Say that a promise is a large one, and what to do."""
+    more = "; use double" if design.settings.number.name == "float" else ""
+    return f"note: {per_cent(_after_aborts(design))} of the largest is much, the plant hardly rests{more}"
 
 
 def _after_aborts(design: ProfileDesign) -> float:

@@ -23,7 +23,7 @@ from swayless.machine.profile_design_rate import check_rate, keeps_rate, longest
 
 ADDED_ERROR_RATIO = {"double": 2.0**-36, "float": 2.0**-23}
 """What pieces may add to the error that the plain table leaves at the end: in double the rounding of a
-command to twelve digits, in float a unit of the last place.
+command to twelve digits, in float a unit of the last place. Or half as much as it leaves, if that is more.
 """
 
 LEAST_GAIN_RATIO = 0.05
@@ -90,7 +90,8 @@ def _pieces(numbered: NumberedMove) -> Pieces:
     """Find the smallest table that leaves hardly more at the end than the plain one, within the limits."""
     raw = proved_table(numbered, raw_pieces(numbered.shape))
     raw.check_rest(numbered.number.name)
-    allowed = raw.final_error_ratio + ADDED_ERROR_RATIO[numbered.number.name]
+    left = raw.final_error_ratio
+    allowed = left + max(0.5 * left, ADDED_ERROR_RATIO[numbered.number.name])
 
     def is_kept(pieces: Pieces) -> bool:
         found = proved_table(numbered, pieces)

@@ -139,11 +139,15 @@ def test_a_directory_without_code_is_refused(run, stored, tmp_path):
 WANTED = [0.0] * 3 + [1.0] * 80 + [0.25] * 140 + [30.0] * 60
 """Where the axis shall be, tick by tick, beyond its limits in the end; the drive fails once."""
 
+UP_AT, RESTS_AT = 2, 0.25
+"""The measurement is up at tick 2: before, it gives what is no place at all, and a wrong one."""
+
 
 def signals():
     """What happens at the axis: a move, one that the drive interrupts, one too early, one too far."""
     for tick, wanted in enumerate(WANTED):
-        yield tick % 80 == 5, tick != 100, wanted, 0.001 * (tick % 7)
+        measured = (1e300, 7.0, RESTS_AT)[min(tick, 2)]
+        yield tick % 80 == 5 or tick == 1, tick not in {0, 1, 100}, wanted, measured
 
 
 def test_the_wiring_of_the_page_gives_the_same_in_c_and_structured_text(stored, tmp_path):
@@ -154,8 +158,10 @@ def test_the_wiring_of_the_page_gives_the_same_in_c_and_structured_text(stored, 
         pins = {"Go": go, "DriveReady": ready, "WantedPosition": wanted, "MeasuredPosition": measured}
         out = outer.step(pins)
         found.append((out["DriveInput"], out["Fault"]))
-    assert max(abs(value) for value, _ in found) > 4.0
-    assert any(fault for _, fault in found)
+    assert max(abs(value) for value, _ in found[UP_AT:]) > 4.0
+    assert found[UP_AT] == (RESTS_AT, False)  # held where it was measured when that was up
+    assert [fault for _, fault in found[:UP_AT]] == [True, True]
+    assert any(fault for _, fault in found[UP_AT:])
     assert printed(stored, tmp_path) == found
 
 
