@@ -32,6 +32,9 @@ LONGEST_SOAK = 100_000
 MOST_HALVINGS = 54
 """A double has 53 bits: one more finds the last digit of any limit."""
 
+NEAR_LIMITS = (0.05, 0.95)
+"""Of the width of the limits: where travels begin that one of the limits stops."""
+
 EPISODES = 60
 """Moves of the stimulus in which everything is toggled."""
 
@@ -170,8 +173,12 @@ def odd_values(operator: Operator) -> ProfileStimulus:
 
 def limits(operator: Operator) -> ProfileStimulus:
     """Ask for travels that are just allowed and just too long, and for starts elsewhere, either way."""
+    # Before the first move any start is good: from near either limit each of them is what stops a travel.
+    for start in _starts_near_limits(operator):
+        for sign in (1.0, -1.0):
+            _longest(operator, sign, start)
     for sign in (1.0, -1.0):
-        longest = _longest(operator, sign)
+        longest = _longest(operator, sign, operator.home)
         for travel in (longest, longest * (1.0 + 1e-6), 2.0 * longest):
             at = operator.last.position
             operator.move(at + operator.scalar(sign * travel), press=1)
@@ -180,13 +187,20 @@ def limits(operator: Operator) -> ProfileStimulus:
     return operator.stimulus("limits")
 
 
-def _longest(operator: Operator, sign: float) -> float:
+def _starts_near_limits(operator: Operator) -> list[Any]:
+    """Give starts held by references near the lowest and the highest; none where all take the same."""
+    (low, high), hold = operator.settings.limits, operator.settings.hold_ratio
+    references = (low + share * (high - low) for share in NEAR_LIMITS) if hold else ()
+    return [operator.scalar(reference / hold) for reference in references]
+
+
+def _longest(operator: Operator, sign: float, start: Any) -> float:
     """Find the longest travel that is allowed, to the last digit; abort is held, so that nothing moves."""
-    home = operator.last.position
 
     def allowed(travel: float) -> bool:
-        operator.tick()
-        out = operator.tick(execute=True, abort=True, target=home + operator.scalar(sign * travel))
+        operator.tick(start=start)
+        target = start + operator.scalar(sign * travel)
+        out = operator.tick(execute=True, abort=True, start=start, target=target)
         return out.status == ProfileStatus.ABORT_HELD
 
     low, high = 0.0, abs(operator.travel)
