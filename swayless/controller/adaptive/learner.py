@@ -122,14 +122,21 @@ class Learner:
         energy, noise = plain.energy, noise_power(window, plain)
         teaches = energy > self._dead_zone and energy > (3.0 * NOISE_FACTOR) * noise
         self.is_frozen = not teaches
-        if teaches and self._is_trusted and self._misfits(window.ee, energy, noise):
-            self.is_converged, self.learns_again = False, True  # one rest's word: the next one decides
-        elif teaches:
-            weight = self._past_weight(window, energy, noise)
-            self._past = window.with_white(self.coefficients, -noise).after(weight, self._past)
-            self._adopt()
+        if teaches:
+            misfits = self._misfits(window.ee, energy, noise)
+            self.learns_again = misfits or self._misfits_slowly(window.ee, energy, noise)
+            if self.learns_again and self._is_trusted:
+                self.is_converged = False  # one rest's word: the next one decides
+            else:
+                self._teach(window, energy, noise, misfits=misfits)
         elif in_use and self._follows_a_move:
             self.is_converged, self.learns_again, self.was_refused = True, False, False
+
+    def _teach(self, window: Information, energy: Any, noise: Any, *, misfits: bool) -> None:
+        """Add a window, its noise taken out, to the past, and take new coefficients from both."""
+        weight = self._past_weight(energy, noise, misfits=misfits)
+        self._past = window.with_white(self.coefficients, -noise).after(weight, self._past)
+        self._adopt()
 
     def _plain(self, sums: Information) -> Information:
         """Give the sums of products of v1 itself in the place of what the coefficients leave."""
@@ -140,37 +147,29 @@ class Learner:
         """P(0)."""
         return self._nothing.with_white(self.coefficients, self._white_at_first)
 
-    def _past_weight(self, window: Information, energy: Any, noise: Any) -> Any:
-        """How much the past still counts: less if the coefficients do not fit."""
-        was_rough = self._is_rough
-        windows = self._windows_that_count(window.ee, energy, noise) * energy
+    def _past_weight(self, energy: Any, noise: Any, *, misfits: bool) -> Any:
+        """How much the past still counts: less if the coefficients do not fit, nothing if they misfit."""
+        was_rough, self._is_rough = self._is_rough, misfits or not self.has_learned
+        if misfits:
+            self._forget_misfit()
+            self._past = self._at_first()
+        windows = energy if self.learns_again else PAST_WINDOWS * energy
         if was_rough:
             windows = min(windows, noise / ROUGHNESS)
         past = self._plain(self._past).energy
         return windows / past if past > windows else self._one
 
-    def _windows_that_count(self, left: Any, energy: Any, noise: Any) -> Any:
-        """How many windows like this one the past is worth: none, one or many."""
-        self.learns_again, self._is_rough = False, not self.has_learned
-        if not self.has_learned:
-            return PAST_WINDOWS
-        if self._misfits(left, energy, noise):
-            self.learns_again = self._is_rough = True
-            self._forget_misfit()
-            self._past = self._at_first()
-            return 1.0
-        left = left - MISFIT_RATIO * energy
-        self.learns_again = self._misfits_slowly(left / squared_size(self.coefficients), noise)
-        return 1.0 if self.learns_again else PAST_WINDOWS
-
     def _misfits(self, left: Any, energy: Any, noise: Any) -> bool:
-        """Whether the coefficients leave far more of a window than its noise."""
-        return bool(
-            left > ((MISFIT_FACTOR * noise) * squared_size(self.coefficients)) + MISFIT_RATIO * energy
-        )
+        """Whether coefficients that were learned leave far more of a window than its noise."""
+        allowed = MISFIT_RATIO * energy
+        most = ((MISFIT_FACTOR * noise) * squared_size(self.coefficients)) + allowed
+        return bool(self.has_learned and left > most)
 
-    def _misfits_slowly(self, left: Any, noise: Any) -> bool:
+    def _misfits_slowly(self, left: Any, energy: Any, noise: Any) -> bool:
         """Whether recent windows together leave more than noise, by four standard deviations."""
+        if not self.has_learned:
+            return False
+        left = (left - (MISFIT_RATIO * energy)) / squared_size(self.coefficients)
         self._left = (RECENT * self._left) + left
         self._noise = (RECENT * self._noise) + noise
         self._samples = (RECENT * self._samples) + self._window_ticks

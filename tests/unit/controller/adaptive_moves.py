@@ -46,8 +46,7 @@ class Experiment:
     seed: int = 1
     vibration_scale: float = 1.0
     offset: float = 0.0
-    knock: float = 0.0
-    knock_tick: int = 0
+    disturbance: Any = 0.0
     inputs: list[tuple[Any, Any]] = field(default_factory=list)
     coefficients: list[NDArray[np.float64]] = field(default_factory=list)
     status: list[int] = field(default_factory=list)
@@ -76,7 +75,7 @@ class Experiment:
     def _cycle(self) -> float:
         scalar = self.settings.number.scalar
         noise = self.noise * self.random.standard_normal(len(self.cycle))
-        errors = (self.scale * (noise + self.offset + self.disturbance())).tolist()
+        errors = (self.scale * (noise + self.offset + self.disturbance)).tolist()
         squares, ticks, bits = 0.0, 0, 0
         for speed, error in zip(self.cycle, errors, strict=True):
             pins = AdaptiveInput(scalar(speed), scalar(self.vibration + error))
@@ -89,12 +88,6 @@ class Experiment:
         self.coefficients.append(np.array(output.coefficient, dtype=np.float64))
         self.status.append(bits)
         return float((squares / ticks) ** 0.5 / self.scale)
-
-    def disturbance(self) -> NDArray[np.float64]:
-        """Vibration that somebody causes by a knock at the sensor, in every tick of a cycle."""
-        times_s = self.tick_s * (np.arange(len(self.cycle)) - self.knock_tick)
-        swing = np.exp(-times_s) * np.cos(self.mode.angular_frequency_rad_s * times_s)
-        return np.where(times_s >= 0.0, self.knock * swing, 0.0)
 
     def error(self, mode: Mode | None = None) -> float:
         """How far the coefficients are from the analytic ones, eq 4."""

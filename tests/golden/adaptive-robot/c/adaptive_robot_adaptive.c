@@ -200,56 +200,45 @@ static void adaptive_robot_forget_misfit(adaptive_robot_adaptive_t *s)
     s->samples = 0.0;
 }
 
-/* Whether recent windows together leave more than noise, by four standard deviations. */
-static bool adaptive_robot_misfits_slowly(adaptive_robot_adaptive_t *s, adaptive_robot_number_t left, adaptive_robot_number_t noise)
-{
-    adaptive_robot_number_t excess;
-    s->left = (adaptive_robot_RECENT * s->left) + left;
-    s->noise = (adaptive_robot_RECENT * s->noise) + noise;
-    s->samples = (adaptive_robot_RECENT * s->samples) + adaptive_robot_WINDOW;
-    excess = s->left - s->noise;
-    return (excess > 0.0)
-        && (((excess * excess) * s->samples) > (adaptive_robot_SIGNIFICANCE * (s->noise * s->noise)));
-}
-
-/* Whether the coefficients leave far more of the window than its noise. */
+/* Whether coefficients that were learned leave far more of the window than its noise. */
 static bool adaptive_robot_misfits(const adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
 {
     const adaptive_robot_number_t allowed = adaptive_robot_MISFIT_RATIO * energy;
-    return s->window.ee > (((adaptive_robot_MISFIT_FACTOR * noise) * adaptive_robot_squared_size(s->coefficient)) + allowed);
+    const adaptive_robot_number_t most = ((adaptive_robot_MISFIT_FACTOR * noise) * adaptive_robot_squared_size(s->coefficient)) + allowed;
+    return s->learned && (s->window.ee > most);
 }
 
-/* How many windows like this one the past is worth. */
-static adaptive_robot_number_t adaptive_robot_windows_that_count(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
+/* Whether recent windows together leave more than noise, by four standard deviations. */
+static bool adaptive_robot_misfits_slowly(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
 {
-    adaptive_robot_number_t windows = adaptive_robot_PAST_WINDOWS;
-    s->again = false;
-    s->rough = !s->learned;
+    bool slowly = false;
     if (s->learned) {
-        if (adaptive_robot_misfits(s, energy, noise)) {
-            s->again = true;
-            s->rough = true;
-            adaptive_robot_forget_misfit(s);
-            adaptive_robot_forget_past(s);
-        } else {
-            const adaptive_robot_number_t left = s->window.ee - (adaptive_robot_MISFIT_RATIO * energy);
-            s->again = adaptive_robot_misfits_slowly(s, left / adaptive_robot_squared_size(s->coefficient), noise);
-        }
-        if (s->again) {
-            windows = 1.0;
-        }
+        const adaptive_robot_number_t left = s->window.ee - (adaptive_robot_MISFIT_RATIO * energy);
+        adaptive_robot_number_t excess;
+        s->left = (adaptive_robot_RECENT * s->left) + (left / adaptive_robot_squared_size(s->coefficient));
+        s->noise = (adaptive_robot_RECENT * s->noise) + noise;
+        s->samples = (adaptive_robot_RECENT * s->samples) + adaptive_robot_WINDOW;
+        excess = s->left - s->noise;
+        slowly = (excess > 0.0)
+            && (((excess * excess) * s->samples) > (adaptive_robot_SIGNIFICANCE * (s->noise * s->noise)));
     }
-    return windows;
+    return slowly;
 }
 
-/* How much the past still counts beside a window. */
-static adaptive_robot_number_t adaptive_robot_past_weight(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise)
+/* How much the past still counts beside a window: less if the coefficients do not fit, nothing if they misfit. */
+static adaptive_robot_number_t adaptive_robot_past_weight(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise,
+    bool misfits)
 {
     const bool was_rough = s->rough;
     const adaptive_robot_number_t rough = noise / adaptive_robot_ROUGHNESS;
-    adaptive_robot_number_t windows = adaptive_robot_windows_that_count(s, energy, noise) * energy;
+    adaptive_robot_number_t windows = s->again ? energy : (adaptive_robot_PAST_WINDOWS * energy);
     adaptive_robot_adaptive_sums_t plain;
     adaptive_robot_number_t past;
+    s->rough = misfits || (!s->learned);
+    if (misfits) {
+        adaptive_robot_forget_misfit(s);
+        adaptive_robot_forget_past(s);
+    }
     if (was_rough && (rough < windows)) {
         windows = rough;
     }
@@ -299,6 +288,20 @@ static void adaptive_robot_adopt(adaptive_robot_adaptive_t *s)
     }
 }
 
+/* Add the window, its noise taken out, to the past, and take new coefficients from both. */
+static void adaptive_robot_teach(adaptive_robot_adaptive_t *s, adaptive_robot_number_t energy, adaptive_robot_number_t noise, bool misfits)
+{
+    const adaptive_robot_number_t weight = adaptive_robot_past_weight(s, energy, noise, misfits);
+    const adaptive_robot_adaptive_sums_t seen = adaptive_robot_with_white(&s->window, s->coefficient, -noise);
+    s->past.ee = (weight * s->past.ee) + seen.ee;
+    s->past.eu = (weight * s->past.eu) + seen.eu;
+    s->past.ew = (weight * s->past.ew) + seen.ew;
+    s->past.uu = (weight * s->past.uu) + seen.uu;
+    s->past.uw = (weight * s->past.uw) + seen.uw;
+    s->past.ww = (weight * s->past.ww) + seen.ww;
+    adaptive_robot_adopt(s);
+}
+
 /* Learn from a complete window, or find that there is nothing to learn from. */
 static void adaptive_robot_judge(adaptive_robot_adaptive_t *s)
 {
@@ -306,20 +309,14 @@ static void adaptive_robot_judge(adaptive_robot_adaptive_t *s)
     const adaptive_robot_number_t energy = adaptive_robot_energy_of(&plain);
     const adaptive_robot_number_t noise = adaptive_robot_noise_power(&s->window, &plain);
     s->frozen = !((energy > adaptive_robot_DEAD_ZONE) && (energy > (adaptive_robot_NOISE_FACTOR * noise)));
-    if ((!s->frozen) && s->trusted && adaptive_robot_misfits(s, energy, noise)) {
-        /* one rest's word against a set that had converged: the next one decides */
-        s->converged = false;
-        s->again = true;
-    } else if (!s->frozen) {
-        const adaptive_robot_number_t weight = adaptive_robot_past_weight(s, energy, noise);
-        const adaptive_robot_adaptive_sums_t seen = adaptive_robot_with_white(&s->window, s->coefficient, -noise);
-        s->past.ee = (weight * s->past.ee) + seen.ee;
-        s->past.eu = (weight * s->past.eu) + seen.eu;
-        s->past.ew = (weight * s->past.ew) + seen.ew;
-        s->past.uu = (weight * s->past.uu) + seen.uu;
-        s->past.uw = (weight * s->past.uw) + seen.uw;
-        s->past.ww = (weight * s->past.ww) + seen.ww;
-        adaptive_robot_adopt(s);
+    if (!s->frozen) {
+        const bool misfits = adaptive_robot_misfits(s, energy, noise);
+        s->again = misfits ? true : adaptive_robot_misfits_slowly(s, energy, noise);
+        if (s->again && s->trusted) {
+            s->converged = false; /* one rest's word against a set that had converged: the next one decides */
+        } else {
+            adaptive_robot_teach(s, energy, noise, misfits);
+        }
     } else if (s->shaping && s->fresh) {
         s->converged = true;
         s->again = false;
