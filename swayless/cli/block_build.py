@@ -161,6 +161,8 @@ def verify_block_at(
         code = {target: code_in(path / target) for target in LANGUAGES} if folders else block.code
         if not any(code.values()):
             raise FileError([f"{path}: holds no generated code in {' or '.join(LANGUAGES)}"])
+        if lacking := _lacking(path, code, block.code):
+            raise FileError(lacking)
         verdicts = _proof(block, code, compiler, soak_ticks, show)
     missing = {
         target: f"not verified, there is none in {path / target}" for target, own in code.items() if not own
@@ -171,6 +173,17 @@ def verify_block_at(
         print_verdicts(verdicts, missing)
     if not all_equal(verdicts):
         raise typer.Exit(1)
+
+
+def _lacking(path: Path, found: CodeFiles, made: CodeFiles) -> list[str]:
+    """Name every file that a language lacks of which there are others; nothing needs the example."""
+    return [
+        f"{path / target / file.path}: is not there: `build` wrote it, and other files of {target} need it"
+        for target, files in made.items()
+        for file in files
+        if found[target] and file.path not in {each.path for each in found[target]}
+        if "_example." not in file.path
+    ]
 
 
 def refuse_number(path: Path, number: str | None) -> None:

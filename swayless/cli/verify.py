@@ -243,6 +243,7 @@ def verdict_document(verdicts: Sequence[Verdict], missing: dict[str, str]) -> di
 
 def _stored(directory: Path) -> tuple[list[tuple[DesignFile, ShaperSettings, CodeFiles]], CodeFiles]:
     """Read back what `build` wrote: the design of each axis with its code, and the wiring of all."""
+    from swayless.cli.block_kinds import ENDINGS
     from swayless.codegen import TARGETS
     from swayless.errors import FileError
     from swayless.machine import load_design
@@ -250,7 +251,7 @@ def _stored(directory: Path) -> tuple[list[tuple[DesignFile, ShaperSettings, Cod
 
     designs = [load_design(path) for path in sorted(directory.glob("*.design.json"))]
     if not designs:
-        found = "holds 0 files *.design.json"
+        found = f"holds 0 files {', '.join(('*.design.json', *ENDINGS))}"
         raise FileError([f"{directory}: {found}; give a directory that `build` wrote, or a design file"])
     files = {name: code_in(directory / name) for name in TARGETS}
     if not any(files.values()):

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from swayless.errors import FileError
-from swayless.machine.design_document import DesignFile
+from swayless.machine.checks import choice
+from swayless.machine.design_document import SCHEMA, DesignFile
 from swayless.machine.problems import Place, Report, shown
 from swayless.machine.record import document_of, read_record
 from swayless.machine.source import read_source
@@ -21,6 +22,11 @@ from swayless.machine.source import read_source
 MAX_BYTES = 4_000_000
 _LINE_LENGTH = 100
 _INDENT = "  "
+_OTHERS = {
+    "swayless.adaptive/1": "an adaptive shaper",
+    "swayless.profile/1": "the block of a motion profile",
+}
+"""Stored files of other kinds, by their schema."""
 
 
 def load_design(path: Path | str) -> DesignFile:
@@ -79,10 +85,23 @@ def design_sha256(design: DesignFile) -> str:
 
 
 def _read_design(text: str, report: Report) -> DesignFile:
-    design = read_record(DesignFile, _parse(text, report), Place(report, ""))
+    document = _parse(text, report)
+    _check_schema(document, report)
+    design = read_record(DesignFile, document, Place(report, ""))
     if design is None or report.problems:
         raise FileError(report.problems)
     return design
+
+
+def _check_schema(document: object, report: Report) -> None:
+    """Refuse what is another kind of file: nothing else that stands in it is worth a word then."""
+    schema = document.get("schema", SCHEMA) if isinstance(document, dict) else SCHEMA
+    if isinstance(schema, str) and schema in _OTHERS:
+        reason = f"stores {_OTHERS[schema]}, which 'swayless generate' and 'swayless verify' take"
+        raise FileError([f"{report.file}: schema = {shown(schema)}: must be {SCHEMA}: this file {reason}"])
+    choice("schema", (SCHEMA,))(schema, Place(report, "schema"))
+    if report.problems:
+        raise FileError(report.problems)
 
 
 def _parse(text: str, report: Report) -> object:

@@ -194,3 +194,33 @@ def printed(stored, tmp_path):
     subprocess.run([*find_compiler().command, *flags, *sources, "-o", program], check=True)
     done = subprocess.run([program], capture_output=True, text=True, check=True)
     return [(float(value), fault == "1") for value, fault in map(str.split, done.stdout.splitlines())]
+
+
+def test_a_file_that_is_not_there_is_named(run, stored, tmp_path):
+    out = tmp_path / "out"
+    for part in ("c", "st"):
+        (out / part).mkdir(parents=True)
+        for file in (stored / part).iterdir():
+            (out / part / file.name).write_bytes(file.read_bytes())
+    (out / f"{NAME}.profile.json").write_bytes((stored / f"{NAME}.profile.json").read_bytes())
+    (out / "c" / f"{NAME}_profile.c").unlink()
+    refused = run("verify", out)
+    assert refused.code == 2
+    assert f"{NAME}_profile.c: is not there: `build` wrote it" in refused.err
+
+
+@pytest.mark.parametrize("command", [("simulate",), ("plot", "response", "-o", "a.svg")])
+def test_commands_for_shapers_refuse_the_stored_file_in_one_sentence(run, stored, command):
+    refused = run(*command, stored / f"{NAME}.profile.json")
+    assert refused.code == 2
+    said = "stores the block of a motion profile, which 'swayless generate' and 'swayless verify' take"
+    assert said in " ".join(refused.err.split())
+    assert refused.err.count("schema") == 1
+
+
+def test_a_schema_that_is_not_known_is_all_that_is_said(run, stored, tmp_path):
+    file = tmp_path / "a.profile.json"
+    file.write_text((stored / f"{NAME}.profile.json").read_text().replace("profile/1", "profile/7"))
+    refused = run("generate", "c", file, "-o", tmp_path / "c")
+    assert refused.code == 2
+    assert refused.err.count("unknown") == 1
