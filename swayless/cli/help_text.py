@@ -11,9 +11,9 @@ def help_text(command: Callable[..., None]) -> str:
 
     Examples
     --------
-    >>> from swayless.cli.build import build
-    >>> help_text(build).splitlines()[-4:]
-    ['\x08', 'Examples:', '  swayless build crane.toml', '  swayless build crane.toml -o out/crane --check']
+    >>> from swayless.cli.verify import verify
+    >>> help_text(verify).splitlines()[-4:-1]
+    ['\x08', 'Examples:', '  swayless verify out/srtc-gantry']
     """
     text, _, examples = (inspect.getdoc(command) or "").partition("\n\nExamples\n--------\n")
     return "\n".join([text, "", "\b", "Examples:", *(f"  {line}" for line in examples.splitlines())])

@@ -40,6 +40,7 @@ SCRATCH = (
     ("bool", "Stopped", "a stop is latched", "all"),
     ("bool", "IsSettled", "nothing is pending", "all"),
     ("real", "RiseSum", "sum of the commands of the ramp to the target", "waiting"),
+    ("real", "SettledSum", "sum of the references until the block settles", "waiting"),
     ("word", "RiseTicks", "its ticks", "waiting"),
     ("word", "HoldTicks", "ticks at the target until settled", "waiting"),
     ("bool", "RowWaits", "the row has negative amplitudes", "waiting"),

@@ -186,11 +186,10 @@ class CommandShaper:
             steps.finish()
 
     def _outputs(self) -> ShaperOutput:
-        motion, row_at_rest = self._motion, self._wanted_row
+        motion, wanted_row = self._motion, self._wanted_row
         if self._travel is not None:
-            self._travel.look_ahead(motion, self._wanted_row)
-            row_at_rest = self._travel.next_row
-        to_come = self._foretelling.foretell(motion, self._stops, self._steps, row_at_rest)
+            self._travel.look_ahead(motion, wanted_row)
+        to_come = self._foretelling.foretell(motion, self._stops, self._steps, wanted_row, self._travel)
         row = 0 if self._stops.is_latched else motion.row
         status, diagnosis = self._full_status(), self._diagnosis
         length = self._zero if self._rope is None else self._rope.length

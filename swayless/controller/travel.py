@@ -59,8 +59,12 @@ class Travel:
         if motion.is_settled:
             glide = self._approach.glide(abs(motion.command))
             total = motion.filter.pending(wanted_row) + (glide if motion.command > 0 else self._zero - glide)
-            if not self._distances.will_exceed(total, motion.reference):
+            if not self.will_exceed(total, motion.reference):
                 self.next_row = wanted_row
+
+    def will_exceed(self, total: Any, reference: Any) -> bool:
+        """Whether a sum of references to come exceeds the ways that the reference of this tick leaves."""
+        return self._distances.will_exceed(total, reference)
 
     def cut(self, motion: Motion, way: Any, *, forward: bool) -> Any:
         """Cut what is left of steps down to the way to the end, but not below what stopping takes."""

@@ -411,11 +411,10 @@ static srtc_gantry_glide_t srtc_gantry_foretell_waiting(const srtc_gantry_shaper
     const srtc_gantry_glide_t rise = srtc_gantry_glide(s->command, target, ramp);
     const srtc_gantry_glide_t down = srtc_gantry_glide(target, 0.0, &srtc_gantry_DECELERATION);
     const uint32_t hold = (rise.ticks > 0u) ? srtc_gantry_LAST_TICKS : (srtc_gantry_LAST_TICKS - s->still_ticks);
+    const srtc_gantry_real_t settled = (srtc_gantry_pending(s, s->row) + rise.total) + ((srtc_gantry_real_t)hold * target);
     const uint8_t row = srtc_gantry_row_at_rest(s);
     srtc_gantry_glide_t stop;
-    stop.total = srtc_gantry_pending(s, s->row) + rise.total;
-    stop.total = stop.total + ((srtc_gantry_real_t)hold * target);
-    stop.total = (stop.total + srtc_gantry_row_change(s, target, row)) + down.total;
+    stop.total = (settled + srtc_gantry_row_change(s, target, row)) + down.total;
     stop.ticks = rise.ticks + hold + down.ticks + srtc_gantry_TAIL_TICKS[row];
     return stop;
 }
