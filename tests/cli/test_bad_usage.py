@@ -152,7 +152,7 @@ FILES = [
     ("verify plain.json", "the design has no tick"),
     (
         "verify folder",
-        "folder: holds 0 files *.design.json, *.adaptive.json, *.profile.json; give a directory that `build` wrote, or a design file",
+        "folder: holds 0 files *.design.json, *.adaptive.json, *.profile.json; give a directory that",
     ),
     (
         "verify folder --number float",
