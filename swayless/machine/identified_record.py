@@ -14,7 +14,7 @@ from swayless.errors import FileError, PlantError
 from swayless.machine.identified_table import RecordTable, refuse_lines
 from swayless.machine.identified_units import TIME_UNITS, VALUE_UNITS, Head, unit_named
 from swayless.machine.problems import shown
-from swayless.plant.identification import Quantity, SwingRecord
+from swayless.plant.identification import Quantity, SwingRecord, outliers
 from swayless.plant.identification.record import FloatArray
 
 _LATEST_S = 1e10
@@ -293,6 +293,15 @@ def _record(
     except PlantError as error:
         span = f"lines {table.line[part][0]} to {table.line[part][-1]}"
         raise FileError([f"{table.path}: {span}: {error}"]) from error
+    rows = np.flatnonzero(present)[outliers(record.value)]
+    refuse_lines(
+        table.path,
+        [
+            f"{_line(table, row)}: value = {table.values[row, value]:g} stands alone, far outside of the"
+            " swing: leave its cell empty if the reading failed"
+            for row in rows
+        ],
+    )
     missing = int(wanted.sum() - present.sum())
     return ReadRecord(record, table.heads[value], size, missing, rope_length_m)
 

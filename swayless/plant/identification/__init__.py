@@ -7,6 +7,7 @@ Not for: reading files, or designing for what was found.
 """
 
 from swayless.plant.identification.identified_mode import HELD_DEVIATIONS, IdentifiedMode
+from swayless.plant.identification.outliers import outliers
 from swayless.plant.identification.peaks import Decrement, decrement, identify_peaks, mode_of_period
 from swayless.plant.identification.record import Quantity, SwingRecord
 from swayless.plant.identification.rope_offset import RopeOffset, fit_rope_offset
@@ -28,4 +29,5 @@ __all__ = [
     "identify_periods",
     "fit_rope_offset",
     "RopeOffset",
+    "outliers",
 ]

@@ -142,6 +142,16 @@ def test_a_rate_beside_times_is_refused(read):
     ]
 
 
+def test_readings_that_failed_are_refused_with_their_lines(read):
+    bad = "".join(
+        f"{t},{-999 if k in {0, 9} else v}\n" for k, (t, v) in enumerate(zip(TIMES, VALUES, strict=True))
+    )
+    why = "value = -999 stands alone, far outside of the swing: leave its cell empty if the reading failed"
+    # Two of 80 readings: less than the twentieth at either end that may have failed.
+    text = f"time,x\n{bad}" + "".join(f"{t},{np.cos(t):.3f}\n" for t in np.arange(5.0, 20.0, 0.25))
+    assert refusal(read, text) == [f"line {line}: {why}" for line in (2, 11)]
+
+
 def test_a_rope_in_an_unknown_unit_is_not_taken_for_metres(read):
     text = "t,rope [yd],x\n" + "".join(f"{k},{10 if k < 12 else 20},{np.cos(k)}\n" for k in range(30))
     assert refusal(read, text, rope_column="2") == ['line 1: "rope [yd]": is not a length that is known']
