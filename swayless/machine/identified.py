@@ -133,7 +133,7 @@ def updated_machine_text(path: Path, text: str, plant: IdentifiedPlant) -> tuple
         raise FileError(
             [f"{path}: [{section}]: is not written as a section with its keys below: write it by hand"]
         )
-    said = f"[{section}] {_said(old, key, values, exchange)}"
+    said = f"[{section}] {_said(old, key, values, exchange)}{_rope_input(document, plant, exchange)}"
     return new.replace("\n", "\r\n") if "\r\n" in text else new, said
 
 
@@ -148,6 +148,20 @@ def _place(path: Path, document: dict[str, Any]) -> tuple[PlantKind, str]:
         reason = f"{several[0]} makes several modes of it" if several else f"there is no {key}"
         raise FileError([f"{path}: [{section}]: {reason}: write what was identified by hand"])
     return section, key
+
+
+def _rope_input(document: dict[str, Any], plant: IdentifiedPlant, exchange: Exchange) -> str:
+    """Say what a block that is told its rope has to be told from now on."""
+    controller, bank = (
+        part if isinstance(part := document.get(name), dict) else {} for name in ("controller", "bank")
+    )
+    is_told = controller.get("law", "fixed") != "fixed" or bank.get("selection") == "rope_length"
+    if exchange.note is None or plant.rope_offset_m is None or not is_told:
+        return ""
+    return (
+        "; the block is told its rope, and has to be told the pendulum's length from now on: what the crane"
+        f" shows and {sum(plant.rope_offset_m) / 2.0:.4g} m"
+    )
 
 
 def _said(
