@@ -12,11 +12,19 @@ from swayless.cli.console import counted, per_cent
 from swayless.cli.identify_input import AllFound, Found
 from swayless.machine.identified_record import ReadRecord
 from swayless.plant.identification import IdentifiedMode, IdentifiedSwing, Quantity
+from swayless.plant.identification.falling import DRAG, FRICTION, FallingFit
 from swayless.plant.identification.noise import loud_part
 from swayless.plant.identification.pendulum_swing import first_angle_rad
 from swayless.plant.identification.waveform import WAVEFORMS
 
 _ENOUGH_SWINGS = 3.0
+_FALLS = {
+    FRICTION: "straight, as of dry friction",
+    DRAG: "ever slower, as of air drag",
+    None: "friction, air drag, or two modes at almost one frequency",
+}
+_ENOUGH_SAMPLES = 4.0
+"""In a swing, at the usual interval; beyond two every frequency has its images."""
 
 
 def remarks(found: AllFound) -> Iterator[str]:
@@ -57,7 +65,8 @@ def of_record(found: Found) -> Iterator[str]:
         yield f"noise: a peak was read to {found.decrement.reading_std:.2g}, one standard deviation"
     else:
         yield "damping: a stopwatch does not show it; record the swing, or read off peaks (--peaks)"
-    yield from _of_damping(found.modes[0])
+    if found.swing is None or found.swing.is_exponential:
+        yield from _of_damping(found.modes[0])
 
 
 def _of_damping(mode: IdentifiedMode) -> Iterator[str]:
@@ -79,24 +88,34 @@ def _of_swing(swing: IdentifiedSwing, read: ReadRecord) -> Iterator[str]:
             f"too short: {swing.swings:.2g} swings, in which frequency, damping and drift are hard to tell"
             " apart: record ten or more"
         )
+    a_swing = swing.modes[0].mode.damped_period_s / swing.record.interval_s
+    if a_swing < _ENOUGH_SAMPLES:
+        yield (
+            f"samples: {a_swing:.2g} in a swing; a faster swing would look the same: record"
+            f" {_ENOUGH_SAMPLES:g} or more in each"
+        )
     if read.time_unit_is_assumed:
         yield "time: nothing says its unit; taken for seconds"
     if read.missing:
         yield f"missing: {counted(read.missing, 'sample')} without a value, left out"
-    if len(swing.modes) == 1:
+    if len(swing.modes) == 1 and not swing.may_be_two_modes:
         floor = per_cent(swing.second_mode_floor / first, 2)
         near = 1.0 / swing.record.duration_s
         yield (
             f"second mode: none seen; one of less than {floor} of the first, or within {near:.2g} Hz of it,"
             " may not have been"
         )
-    else:
+    elif len(swing.modes) > 1:
         yield "second mode: seen; a shaper for the first alone leaves it to swing"
     yield from _of_middle(swing, first)
     if not swing.is_exponential:
+        fall = swing.fit.fall.exponent if isinstance(swing.fit, FallingFit) else None
+        average = "the damping ratio is an average, and the uncertainty is widened"
+        yield f"decay: not exponential ({_FALLS[fall]}): {average}"
+    if swing.may_be_two_modes:
         yield (
-            "decay: not exponential (friction, air drag, or two modes at almost one frequency): the damping"
-            " ratio is an average, and the uncertainty is widened"
+            "second mode: two close ones explain the record as well as such a decay, and the band covers"
+            " them: say --modes 1 or 2"
         )
     loud = loud_part(swing.fit)
     if loud is not None:

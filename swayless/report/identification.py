@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from swayless.plant.identification import IdentifiedSwing, fitted_values
-from swayless.plant.identification.record import FloatArray
 from swayless.report.sampling import point_count
 from swayless.report.style import GREY, INK, figure_style, legend_above, line_style, new_figure, settle
 
@@ -85,20 +84,12 @@ def _draw_swing(axes: Axes, found: IdentifiedSwing, unit_size: float) -> None:
     label = f"fit: {fastest.frequency_hz:.5g} Hz, damping ratio {fastest.damping_ratio or 0.0:.3g}"
     axes.plot(time_s, fitted_values(found, time_s) / unit_size, label=label, linewidth=1.0, **line_style(0))
     if len(found.modes) == 1:
-        envelope, middle = _envelope(found, time_s)
+        envelope, middle = found.fit.envelope(time_s - time_s[0]), found.middle(time_s)
         for side in (-1.0, 1.0):
             label = "envelope" if side > 0.0 else "_"
             axes.plot(
                 time_s, (middle + side * envelope) / unit_size, label=label, linewidth=0.8, **line_style(4)
             )
-
-
-def _envelope(found: IdentifiedSwing, time_s: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the amplitude of the one mode, and the middle about which it swings."""
-    mode = found.modes[0]
-    decay_rad_s = (mode.damping_ratio or 0.0) * mode.mode.angular_frequency_rad_s
-    since_s = time_s - time_s[0]
-    return (mode.amplitude or 0.0) * np.exp(-decay_rad_s * since_s), found.middle(time_s)
 
 
 def _draw_rest(axes: Axes, found: IdentifiedSwing, unit_size: float) -> None:

@@ -92,7 +92,7 @@ def test_two_modes_are_printed_and_written_into_a_new_file(run, tmp_path):
 
 
 def test_two_modes_that_cannot_be_told_apart_are_refused(run, tmp_path):
-    both = swing(noise=0.1) + swing(0.2035, 0.06, 0.1, seed=51)
+    both = swing(noise=0.05) + swing(0.2035, 0.06, 0.05, seed=51)
     path = write(tmp_path / "close.csv", both, "time_s,sensor")
     done = run("identify", path)
     assert (done.code, done.out) == (2, "")
@@ -125,6 +125,24 @@ def test_a_range_of_ropes_is_corrected_by_the_one_that_was_measured(run, record,
     offset_m = 9.80665 / (2.0 * np.pi * FREQUENCY_HZ) ** 2 - 6.0
     # The record tells the pendulum to some cm; two standard deviations more are held.
     assert 10.0 + offset_m - 0.01 < longest_m < 10.0 + offset_m + 0.05
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_a_block_that_is_told_its_rope_is_said_to_need_that_of_the_pendulum(run, record, tmp_path, told):
+    machine = tmp_path / "crane.toml"
+    text = example_text("workshop-crane")
+    machine.write_text(text.replace("[controller]", '[controller]\nlaw = "phase"') if told else text)
+    out = run("identify", record, "--rope-length", "6", "--into", machine).out
+    assert ("has to be told the pendulum's length from now on: what the crane shows and 0.205" in out) is told
+
+
+def test_too_few_samples_in_a_swing_are_said(run, tmp_path):
+    path = tmp_path / "slow.csv"
+    rows = (f"{t:.2f},{v:.8g}\n" for t, v in zip(TIME_S[::36], swing()[::36], strict=True))
+    path.write_text(f"time,x\n{''.join(rows)}")
+    out = run("identify", path).out
+    assert "\nsamples: 2.8 in a swing; a faster swing would look the same" in out
+    assert "\ntime: nothing says its unit; taken for seconds" in out
 
 
 def test_damping_that_was_not_seen_leaves_that_of_the_file(run, tmp_path):

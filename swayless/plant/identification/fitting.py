@@ -70,12 +70,17 @@ class Fit:
     @cached_property
     def residual(self) -> FloatArray:
         """Record less model, shape (n,)."""
-        return self.model.samples.value - self.model.evaluate(self.parameters)[0]
+        return self.model.samples.value - self.values(self.model.time_s)
+
+    @property
+    def parameter_count(self) -> int:
+        """How many parameters were fitted."""
+        return self.model.parameter_count
 
     @property
     def freedom(self) -> int:
         """Samples less parameters."""
-        return self.model.time_s.size - self.model.parameter_count
+        return self.model.time_s.size - self.parameter_count
 
     @property
     def variance(self) -> float:
@@ -90,6 +95,14 @@ class Fit:
         """Amplitude of one mode at the start of the record."""
         mode = self.mode(index)
         return float(np.hypot(mode[COSINE], mode[SINE]))
+
+    def envelope(self, time_s: FloatArray) -> FloatArray:
+        """Amplitude of the first mode, at times from the start of the record."""
+        return np.asarray(self.amplitude(0) * np.exp(-self.mode(0)[DECAY] * time_s))
+
+    def values(self, time_s: FloatArray) -> FloatArray:
+        """Values of the fit, at times from the start of the record."""
+        return self.model.at(time_s).evaluate(self.parameters)[0]
 
     def covariance(self) -> FloatArray:
         """Covariance of all parameters, for noise of variance 1."""

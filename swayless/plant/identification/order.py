@@ -38,6 +38,9 @@ _WORTH_A_TRY = 0.1
 _BESIDE_TURNS = 1.5
 """Modes that part by less over the record are beside each other."""
 
+_ENVELOPE_TURNS = 4.0
+"""Modes that part by more over the record make a swing rise and fall, which friction does not."""
+
 _BENT_DRIFT = 3
 _SWINGS_FOR_BENT_DRIFT = 3.0
 _SMALLEST_REST = 1e-3
@@ -196,6 +199,11 @@ def turns_apart(two: Fit) -> float:
     """Count the turns that two modes go apart over the record: beats, or parts of one."""
     difference = two.mode(1)[FREQUENCY] - two.mode(0)[FREQUENCY]
     return float(abs(difference) * two.model.duration_s / (2.0 * np.pi))
+
+
+def may_be_an_envelope(two: Fit) -> bool:
+    """Whether two modes are so close that one of them may only change the envelope of the other."""
+    return turns_apart(two) < _ENVELOPE_TURNS
 
 
 def are_told_apart(two: Fit) -> bool:

@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from swayless.errors import PlantError
-from swayless.plant.identification.decision import decided
+from swayless.plant.identification.decision import DECISIVE, Hypothesis, decided, log_likelihood
+from swayless.plant.identification.falling import FallingFit
 from swayless.plant.identification.fitting import Fit, fit
 from swayless.plant.identification.identified_mode import IdentifiedMode
 from swayless.plant.identification.noise import Noise, noise_near
@@ -32,6 +33,9 @@ _SAME_FREQUENCY_TURNS = 0.15
 
 _OTHER_MODEL = 0.75
 """Standard deviation for a model that may be the true one, in its distance: two of them cover it well."""
+
+_GROWTH_STD, _LEAST_GROWTH = 4.0, 0.02
+"""A swing that grows by so many standard deviations, and so much over the record, is not free."""
 
 _NUMERICAL = 1e-10
 """What the search leaves of the phase over the whole record, in rad."""
@@ -58,6 +62,8 @@ class IdentifiedSwing:
     is_decided : bool
         False if it may be that of a load on a rope or a linear one, as far as the record shows; the
         uncertainty then covers both.
+    may_be_two_modes : bool
+        True if two modes explain as much as friction or air drag; the uncertainty then covers them.
     """
 
     record: SwingRecord
@@ -66,6 +72,7 @@ class IdentifiedSwing:
     noise: Noise
     is_exponential: bool = True
     is_decided: bool = True
+    may_be_two_modes: bool = False
 
     @property
     def swings(self) -> float:
@@ -132,7 +139,9 @@ def identify_swing(
     time_s = record.time_s - record.time_s[0]
     taken, others = decided(single_mode(time_s, record.value), record, pendulum=pendulum, modes=modes)
     single, double = taken.single, taken.double
-    if double is None or are_told_apart(double):
+    if taken.falling is not None:
+        found = _falling(record, taken, taken.falling)
+    elif double is None or are_told_apart(double):
         found = _identified(record, taken.fit)
     elif modes is None and turns_apart(double) < _SAME_FREQUENCY_TURNS:
         found = _identified(record, single, mixture=_modes(double))
@@ -158,8 +167,23 @@ def _not_told_apart(double: Fit, record: SwingRecord) -> str:
     low, high = sorted(float(double.mode(index)[FREQUENCY]) / (2.0 * np.pi) for index in range(2))
     return (
         f"the record shows more than one mode, near {low:.5g} and {high:.5g} Hz, and does not tell"
-        f" them apart in {record.duration_s:.4g} s: record for longer, or fit one mode"
+        f" them apart in {record.duration_s:.4g} s: record for longer, or fit one mode (--modes 1)"
     )
+
+
+def _falling(record: SwingRecord, taken: Hypothesis, falling: FallingFit) -> IdentifiedSwing:
+    """Give a swing that friction or drag ends; two modes that explain it nearly as well are covered."""
+    found = replace(_identified(record, falling), is_exponential=False)
+    frequency_rad_s = float(falling.mode(0)[FREQUENCY])
+    average, spread = (each / frequency_rad_s for each in falling.average_decay())
+    single, mode = _modes(taken.single)[0], replace(found.modes[0], damping_ratio=average)
+    # Two standard deviations of the damping reach as far as it strays; averaging leaves its square.
+    mode = replace(mode, damping_ratio_std=float(np.hypot(0.5 * spread, single.damping_ratio_std or 0.0)))
+    mode = _with_spread(mode, average**2 * mode.frequency_hz, 0.0)
+    if taken.double is None or log_likelihood(taken.double) < log_likelihood(falling) - DECISIVE:
+        return replace(found, modes=(mode,))
+    covering = _widened(mode, _modes(taken.double))
+    return replace(found, modes=(covering,), may_be_two_modes=True)
 
 
 def _identified(
@@ -174,8 +198,24 @@ def _identified(
         raise PlantError(_no_swing(modes[0], record))
     swinging.sort(key=lambda index: -found.amplitude(index))
     by_amplitude = tuple(modes[index] for index in swinging)
+    _refuse_growth(found, swinging)
     bounded = _bounded(found)
     return IdentifiedSwing(record, bounded, by_amplitude, noise_near(bounded, swinging[0]), not mixture)
+
+
+def _refuse_growth(found: Fit, indices: list[int]) -> None:
+    """Refuse a swing that grows beyond what noise may feign: it is not free."""
+    end_s, covariance = found.model.duration_s, found.covariance()
+    for index in indices:
+        frequency_rad_s, decay_rad_s = found.mode(index)[[FREQUENCY, DECAY]]
+        variance = covariance[PER_MODE * index + DECAY, PER_MODE * index + DECAY]
+        std_rad_s = noise_near(found, index).scale * float(np.sqrt(variance))
+        if -decay_rad_s > max(_GROWTH_STD * std_rad_s, _LEAST_GROWTH / end_s):
+            raise PlantError(
+                f"the swing of {frequency_rad_s / (2.0 * np.pi):.5g} Hz grows by"
+                f" {100.0 * np.expm1(-decay_rad_s * end_s):.3g} % in {end_s:.4g} s, which no free swing does:"
+                " is it driven, or a part of the beat of two modes?"
+            )
 
 
 def _covering_all(
@@ -188,9 +228,7 @@ def _covering_all(
 def _covering(mode: IdentifiedMode, others: list[tuple[IdentifiedMode, ...]]) -> IdentifiedMode:
     """Cover the nearest mode of each of the other models."""
     near = [min(modes, key=lambda each: abs(each.frequency_hz - mode.frequency_hz)) for modes in others]
-    away_hz = max(abs(other.frequency_hz - mode.frequency_hz) for other in near)
-    ratio = max(abs((other.damping_ratio or 0.0) - (mode.damping_ratio or 0.0)) for other in near)
-    return _with_spread(mode, _OTHER_MODEL * away_hz, _OTHER_MODEL * ratio)
+    return _widened(mode, tuple(near), deviations=0.0)
 
 
 def _no_swing(mode: IdentifiedMode, record: SwingRecord) -> str:
@@ -210,14 +248,15 @@ def _swings(mode: IdentifiedMode, record: SwingRecord) -> bool:
     return mode.frequency_hz * record.duration_s >= 1.0 and (mode.damping_ratio or 0.0) <= LARGEST_DAMPING
 
 
-def _widened(mode: IdentifiedMode, mixture: tuple[IdentifiedMode, ...]) -> IdentifiedMode:
-    """Add the spread of a mixture, by amplitude, to the uncertainty of the one mode in its place."""
-    weights = np.array([each.amplitude or 0.0 for each in mixture])
-    share = float(np.sqrt(np.prod(weights / weights.sum())))
-    frequencies, ratios = zip(
-        *((each.frequency_hz, each.damping_ratio or 0.0) for each in mixture), strict=True
+def _widened(
+    mode: IdentifiedMode, mixture: tuple[IdentifiedMode, ...], *, deviations: float = 1.0
+) -> IdentifiedMode:
+    """Add to the uncertainty of one mode how far those lie, or may, that may stand in its place."""
+    away_hz = max(
+        abs(each.frequency_hz - mode.frequency_hz) + deviations * each.frequency_hz_std for each in mixture
     )
-    return _with_spread(mode, share * float(np.ptp(frequencies)), share * float(np.ptp(ratios)))
+    ratio = max(abs((each.damping_ratio or 0.0) - (mode.damping_ratio or 0.0)) for each in mixture)
+    return _with_spread(mode, _OTHER_MODEL * away_hz, _OTHER_MODEL * ratio)
 
 
 def _with_spread(mode: IdentifiedMode, frequency_hz: float, damping_ratio: float) -> IdentifiedMode:
@@ -244,7 +283,7 @@ def _modes(found: Fit) -> tuple[IdentifiedMode, ...]:
     """Turn a fit into modes; what is uncertain is so as if damping could be below 0."""
     covariance, bounded = found.covariance(), _bounded(found)
     return tuple(
-        _mode(bounded, index, noise_near(found, index).scale ** 2 * covariance)
+        _mode(bounded, index, noise_near(bounded, index).scale ** 2 * covariance)
         for index in range(found.model.modes)
     )
 
@@ -277,5 +316,4 @@ def fitted_values(found: IdentifiedSwing, time_s: FloatArray) -> FloatArray:
     time_s : ndarray
         On the clock of the record.
     """
-    model = found.fit.model.at(time_s - found.record.time_s[0])
-    return model.evaluate(found.fit.parameters)[0]
+    return found.fit.values(time_s - found.record.time_s[0])

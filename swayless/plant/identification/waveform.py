@@ -32,7 +32,7 @@ ComplexArray: TypeAlias = NDArray[np.complex128]
 _FLAT = 1e-4
 """Below this decay over the record, differences of exponentials are series: their digits would cancel."""
 
-_SLOWING = ((2, 1 / 16), (4, 3 / 1024), (6, 5 / 16384))
+SLOWING = ((2, 1 / 16), (4, 3 / 1024), (6, 5 / 16384))
 """Powers of u, and by how much each slows the phase."""
 
 
@@ -152,7 +152,7 @@ def lag_s(time_s: FloatArray, decay_rad_s: float, amplitude_rad: float) -> tuple
     0.2505
     """
     lag, by_decay, by_log_amplitude = np.zeros((3, time_s.size))
-    for power, slowing in _SLOWING:
+    for power, slowing in SLOWING:
         integral, integral_by_decay = _accumulated(time_s, power, decay_rad_s)
         factor = slowing * amplitude_rad**power
         lag += factor * integral

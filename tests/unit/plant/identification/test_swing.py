@@ -86,6 +86,14 @@ def test_damping_of_nothing_is_zero_and_said_to_be_below_resolution():
         assert mode.damping_range()[0] == 0.0
 
 
+def test_a_swing_that_grows_is_refused_and_noise_does_not_make_one():
+    growing = np.exp(0.002 * TIME_S) * noisy(Truth(0.3), 0.02)
+    with pytest.raises(PlantError, match=r"0\.3 Hz grows by 2\d\.\d % in 100 s, which no free swing does"):
+        identify_swing(SwingRecord(TIME_S, growing))
+    for seed in range(8):
+        identify_swing(SwingRecord(TIME_S, noisy(Truth(0.3), 0.3, seed)))
+
+
 def test_noise_with_more_power_near_the_swing_widens_the_uncertainty():
     rng = np.random.default_rng(3)
     steps = 0.01 * np.cumsum(rng.normal(size=(10, TIME_S.size)), axis=1)

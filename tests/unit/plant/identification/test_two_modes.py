@@ -68,6 +68,34 @@ def test_a_second_mode_just_above_the_floor_is_found():
     assert [round(mode.frequency_hz, 2) for mode in found.modes] == [0.3, 0.8]
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_a_swing_that_friction_stops_is_no_pair_of_modes(seed):
+    envelope = np.maximum(0.0, 1.2 * np.exp(-TIME_S / 100.0) - 0.2 - TIME_S / 120.0)
+    noise = 0.02 * np.random.default_rng(seed).normal(size=4001)
+    found = identify_swing(SwingRecord(TIME_S, envelope * Truth(0.3).swing(TIME_S) + noise))
+    (mode,) = found.modes
+    assert (found.is_exponential, found.may_be_two_modes) == (False, False)
+    # 3.5 standard deviations: one in two thousand; 5e-4: what two modes in its place would be off.
+    assert abs(mode.frequency_hz - 0.3) < 3.5 * mode.frequency_hz_std < 5e-4
+    np.testing.assert_allclose(found.fit.envelope(TIME_S)[:2400], envelope[:2400], atol=0.02)
+
+
+def test_the_band_of_one_mode_in_the_place_of_two_holds_both():
+    """At a tenth of a beat: refused, or one band that holds them."""
+    covered = 0
+    for seed in range(3):
+        record, second = two(0.001, 0.01, seed)
+        try:
+            found = identify_swing(record)
+        except PlantError:
+            continue
+        band = found.modes[0].band()
+        assert band.contains(FIRST.frequency_hz)
+        assert band.contains(second.frequency_hz)
+        covered += not found.is_exponential
+    assert covered > 0
+
+
 @pytest.mark.parametrize(
     "envelope",
     [1.0 - 0.8 * TIME_S / 100.0, 1.0 / (1.0 + TIME_S / 40.0)],
