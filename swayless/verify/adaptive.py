@@ -130,11 +130,11 @@ def adaptive_stimuli(settings: AdaptiveSettings, soak_ticks: int = 0) -> Iterato
     yield Stimulus("moves with noise", noisy)
     yield Stimulus("bad readings", _spoilt(settings, noisy, seed=3))
     yield Stimulus("noise alone", _noise_alone(settings, seed=4))
-    yield Stimulus("any two poles", _any_two_poles(settings, _moves(settings), seed=9))
+    yield Stimulus("any two poles", _any_two_poles(settings, _moves(settings), seed=18))
     if soak_ticks:
         ticks = min(soak_ticks, LONGEST_SOAK)
         moves = -(-ticks // _move_ticks(settings))
-        yield Stimulus(_SOAK, _any_two_poles(settings, moves, seed=6)[:ticks])
+        yield Stimulus(_SOAK, _any_two_poles(settings, moves, seed=10)[:ticks])
 
 
 def _closed_loop(settings: AdaptiveSettings, noise: float, *, seed: int) -> NDArray[np.void]:
@@ -189,7 +189,7 @@ def _any_two_poles(settings: AdaptiveSettings, moves: int, *, seed: int) -> NDAr
     or are hardly allowed, tell every limit and weight from one that is a little different.
     """
     random, move_ticks = np.random.default_rng(seed), _move_ticks(settings)
-    offset, noise = (10.0 ** random.uniform(-4.0, high, (moves, 1)) for high in (0.0, -0.7))
+    offset, noise = (10.0 ** random.uniform(-6.0, high, (moves, 1)) for high in (0.0, -0.7))
     places = np.repeat(random.uniform([-0.3, -1.5], [1.5, 0.3], (moves, 2)), _MOVES_ALIKE, axis=0)[:moves]
     places += (noise + 0.004) * random.uniform(-6.0, 6.0, (moves, 2))
     product, sine = 0.99 * np.sin(places).T
