@@ -150,6 +150,7 @@ def _record_document(found: Found) -> dict[str, Any]:
             "drift": swing.drift,
             "second_mode_floor": swing.second_mode_floor,
             "decay_is_exponential": swing.is_exponential,
+            "may_be_two_modes": swing.may_be_two_modes,
             "slowed_ratio": swing.slowed_ratio,
         }
     )

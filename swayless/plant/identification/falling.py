@@ -1,8 +1,8 @@
 """A swing that friction or air drag ends: one frequency, an amplitude that does not fall exponentially.
 
 The amplitude a obeys a' = -s a - c (dry friction, as far as it has not stopped) or a' = -s a - c a^2 (air
-drag), each beside viscous damping s. With m = 1 and m = -1 both are (a^m)' = -m (s a^m + c), and so
-a^m = a0^m exp(-m s t) - c (1 - exp(-m s t)) / s. Neither moves the frequency of small swings, to first order.
+drag), each beside viscous damping s. With E = (1 - exp(-s t)) / s these are a = a0 exp(-s t) - c E,
+and a = a0 exp(-s t) / (1 + c a0 E). Neither moves the frequency of small swings, to first order.
 
 Not for: exponential decays (`fitting`).
 
@@ -31,10 +31,12 @@ _LAW = 3
 """Phase, viscous rate and further rate, before the linear parameters."""
 
 _STEPS = 60
+_STANDS = 1e-6
+"""Part of the first amplitude below which nothing swings any more."""
 
 
 class Fall(NamedTuple):
-    """How an amplitude falls, in units of the first one: the exponent m, s and c in 1/s."""
+    """How an amplitude falls, in units of the first one: 1 (friction) or -1 (drag), and s and c in 1/s."""
 
     exponent: int
     viscous: float
@@ -48,9 +50,11 @@ class Fall(NamedTuple):
         >>> Fall(FRICTION, 0.0, 0.5).amplitude(np.array([0.0, 1.0, 4.0]))
         array([1. , 0.5, 0. ])
         """
-        exponent = self.exponent * self.viscous * time_s
-        integral = self.exponent * time_s if self.viscous == 0.0 else -np.expm1(-exponent) / self.viscous
-        return np.asarray(np.maximum(0.0, np.exp(-exponent) - self.further * integral) ** self.exponent)
+        viscous = np.exp(-self.viscous * time_s)
+        integral = time_s if self.viscous == 0.0 else -np.expm1(-self.viscous * time_s) / self.viscous
+        if self.exponent == FRICTION:
+            return np.asarray(np.maximum(0.0, viscous - self.further * integral))
+        return np.asarray(viscous / (1.0 + self.further * integral))
 
     def rate(self, amplitude: FloatArray) -> FloatArray:
         """Give the decay in 1/s at amplitudes above 0."""
@@ -91,7 +95,7 @@ class FallingFit(Fit):
     def average_decay(self) -> tuple[float, float]:
         """Give the decay in 1/s, on the average over the energy of the record, and its standard deviation."""
         amplitude = self.fall.amplitude(self.model.time_s)
-        moving = amplitude > 0.0
+        moving = amplitude > _STANDS
         rate, weight = self.fall.rate(amplitude[moving]), amplitude[moving] ** 2
         mean = float(np.average(rate, weights=weight))
         return mean, float(np.sqrt(np.average((rate - mean) ** 2, weights=weight)))
