@@ -218,6 +218,14 @@ def load_axes(path: Path | str) -> Axes:
     return Axes(str(document["name"]), machines)
 
 
+_OTHER_BLOCKS = {
+    "adaptive": "an adaptive shaper, which `swayless build` makes",
+    "plant": "a move computed ahead, which `swayless profile` and `swayless build` take",
+    "move": "a move computed ahead, which `swayless profile` and `swayless build` take",
+}
+"""What a file without a machine describes, by a section of it."""
+
+
 def _parse(path: Path, text: str) -> dict[str, object]:
     try:
         document = tomllib.loads(text)
@@ -229,6 +237,10 @@ def _parse(path: Path, text: str) -> dict[str, object]:
         needs = "name, [crane] or [arm], [controller] and at least one [[row]] or a [bank]"
         hint = "'swayless init' writes a commented file to start from"
         raise FileError([f"{path}: is empty: a machine file needs {needs}; {hint}"])
+    if {"crane", "arm", "axis"}.isdisjoint(document):
+        for section, what in _OTHER_BLOCKS.items():
+            if section in document:
+                raise FileError([f"{path}: [{section}]: {what}; here a machine with [crane] or [arm] is needed"])
     return document
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from swayless.errors import FileError
 from swayless.machine import load_machine
+from swayless.machine.examples import example_path
 
 GOOD = """name = "good"
 [crane]
@@ -121,6 +123,19 @@ def test_an_empty_file_says_what_is_needed_and_how_to_start(tmp_path: Path, cont
         "is empty: a machine file needs name, [crane] or [arm], [controller] and at least one [[row]] or a "
         "[bank]; 'swayless init' writes a commented file to start from"
     ]
+
+
+@pytest.mark.parametrize(
+    ("example", "says"),
+    [
+        ("adaptive-robot", "[adaptive]: an adaptive shaper"),
+        ("time-optimal-oscillator", "[plant]: a move computed ahead"),
+        ("inverted-servo", "[move]: a move computed ahead"),
+    ],
+)
+def test_a_file_of_another_block_is_named_as_such(example: str, says: str) -> None:
+    with pytest.raises(FileError, match=re.escape(says)):
+        load_machine(example_path(example))
 
 
 def test_bytes_that_are_not_utf8_are_located(tmp_path: Path) -> None:
