@@ -240,7 +240,8 @@ def _parse(path: Path, text: str) -> dict[str, object]:
     if {"crane", "arm", "axis"}.isdisjoint(document):
         for section, what in _OTHER_BLOCKS.items():
             if section in document:
-                raise FileError([f"{path}: [{section}]: {what}; here a machine with [crane] or [arm] is needed"])
+                needed = "here a machine with [crane] or [arm] is needed"
+                raise FileError([f"{path}: [{section}]: {what}; {needed}"])
     return document
 
 
