@@ -260,6 +260,11 @@ class ProfileCode:
         return not all(played.is_raw for played in self.played)
 
     @property
+    def stop_ranges(self) -> int:
+        """Number of ranges of ticks in which a stop may begin."""
+        return 0 if self.settings.stop is None else len(self.settings.stop.ranges)
+
+    @property
     def stop_terms(self) -> int:
         """Coefficients of a piece of the stop that the block keeps; a tick of its own needs none."""
         return 0 if self.stop is None or self.stop.is_raw else self.stop.coefficients
@@ -274,14 +279,14 @@ class ProfileCode:
         """What brings the plant to rest after an abort."""
         if self.stop is None:
             return "by the end of the move; no stop is sooner"
-        return "by a stop, or by the end of the move where that is sooner"
+        return "by a stop from the next tick that allows one, or the end of the move"
 
     @property
     def abort_doc(self) -> str:
         """What an abort does, for a comment."""
         if self.stop is None:
             return "after an abort the move goes on to its end, as aborted: no stop is sooner"
-        return "an abort begins a stop, unless the move is over sooner"
+        return "after an abort begin a stop in the first tick that allows one"
 
     def st_first(self, coefficients: int) -> str:
         """Index of the first coefficient of a piece; one of each tick needs no product."""
@@ -328,7 +333,10 @@ class ProfileCode:
         """Upper bound of the size of the C state."""
         real = ST_BYTES[self.st_types.real]
         arrays = self.columns * (1 if self.stop is None else 2)
-        return real * (arrays + 4 + self.stop_terms) + 4 * 4 + 8
+        words = 3 if self.stop is None else 5
+        return (
+            real * (arrays + 4 + self.stop_terms) + 4 * words + 12
+        )  # seven truths, and what fills eight bytes
 
     @property
     def table_bytes(self) -> int:
@@ -341,6 +349,7 @@ class ProfileCode:
         ticks, tick_s = self.settings.pieces.ticks, self.settings.tick_s
         low, high = self.settings.limits
         counted = "1 tick" if self.stop_ticks == 1 else f"{self.stop_ticks} ticks"
+        counted = f"{counted}, {self.stop_ticks * tick_s:.6g} s,"
         return (
             f"{self.name}: motion profile. It plays a move computed ahead, from any start to any target.",
             "",
@@ -348,7 +357,8 @@ class ProfileCode:
             "This file is yours: use, change and ship it as you like.",
             "",
             f"Tick {tick_s:.6g} s. A move takes {ticks} ticks, {ticks * tick_s:.6g} s, however far it goes.",
-            f"At most {counted} after an abort the plant rests: {self.how_it_stops}.",
+            f"At most {counted} after an abort the plant rests:",
+            f"{self.how_it_stops}.",
             f"References from {low:.6g} to {high:.6g}; a move that could need more is refused.",
             *self.origin.facts,
             "Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,",

@@ -36,7 +36,10 @@ ST_VARIABLES = (
 
 ST_STOP_VARIABLES = (
     Variable("StopPlays", "bool", "a stop plays", st_reset="FALSE"),
-    Variable("TicksLeft", "word", "ticks of the move that have not played", st_reset="0"),
+    Variable("MoveTick", "word", "ticks of the move that have played", st_reset="0"),
+    Variable(
+        "StopRange", "word", "range of its ticks in which a stop may begin, that is not over", st_reset="0"
+    ),
     Variable("GainRow", "word", "row of gains"),
 )
 """More of them, where a stop can be sooner than the end of the move."""

@@ -174,7 +174,7 @@ def profile_tables(settings: ProfileSettings) -> tuple[ProfileTable, ...]:
 
     >>> from swayless.controller.profile import Extremes, Pieces, ProfileModel, ProfileSettings, StopLaw
     >>> mass = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
-    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0])
+    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0], [[1, 2]])
     >>> pieces, extremes = Pieces([2, 2], [[0.25], [-0.25]]), Extremes((-1.0, 1.0), (0.0, 1.0))
     >>> tables = profile_tables(ProfileSettings(0.01, pieces, mass, stop, extremes, (-4.0, 4.0)))
     >>> for line in tables[0].c_lines:
@@ -204,6 +204,13 @@ def _tables(settings: ProfileSettings) -> Iterator[ProfileTable]:
     yield from _timing(stop, settings)
     doc = "Where a stop comes to rest, of the same."
     yield ProfileTable("STOP_REST", "StopRest", [("share of the travel", settings.stop.rest)], doc, number)
+    ranges = settings.stop.ranges
+    for names, what, ticks in (
+        (("STOP_FIRST", "StopFirst"), "First", ranges[:, 0]),
+        (("STOP_LAST", "StopLast"), "Last", ranges[:, 1]),
+    ):
+        doc = f"{what} tick of the move in each range in which a stop may begin."
+        yield ProfileTable(*names, [_range_row(tick, tick_s) for tick in ticks.tolist()], doc, None)
 
 
 def _form(played: PlayedPieces) -> str:
@@ -251,6 +258,10 @@ def _plant_rows(model: ProfileModel) -> Rows:
     changes = np.column_stack([model.change, model.input])
     rows: Rows = [(f"change of state {row}", values) for row, values in enumerate(changes)]
     return [*rows, ("position", np.append(model.output, model.feedthrough))]
+
+
+def _range_row(tick: int, tick_s: float) -> tuple[str, FloatArray]:
+    return f"{tick * tick_s:.6g} s", np.array([tick])
 
 
 def _whens(pieces: Pieces, tick_s: float) -> list[str]:

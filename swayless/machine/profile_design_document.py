@@ -60,7 +60,12 @@ def record_of(design: ProfileDesign) -> ProfileRecord:
         ModelRecord(_nested(model.change), _nested(model.input), _nested(model.output), model.feedthrough),
         None
         if stop is None
-        else StopRecord(_nested(stop.pieces.lengths), _nested(stop.pieces.coefficients), _nested(stop.rest)),
+        else StopRecord(
+            _nested(stop.pieces.lengths),
+            _nested(stop.pieces.coefficients),
+            _nested(stop.rest),
+            _nested(stop.ranges),
+        ),
     )
 
 
@@ -128,7 +133,8 @@ def _settings(record: ProfileRecord, place: Place, move: ProfileMove | None) -> 
 
 
 def _stop_law(stop: StopRecord) -> StopLaw:
-    return StopLaw(Pieces(_array(stop.lengths), _array(stop.coefficients)), _array(stop.rest))
+    pieces = Pieces(_array(stop.lengths), _array(stop.coefficients))
+    return StopLaw(pieces, _array(stop.rest), _array(stop.ranges))
 
 
 def _made(place: Place, key: str, make: Callable[[], T]) -> T | None:

@@ -23,8 +23,8 @@ from swayless.design.playing import (
     largest_step,
     missed_by_move,
     missed_by_stops,
-    stops_needed,
     swing_ratio,
+    ticks_of,
 )
 from swayless.design.playing.stopping import blocks
 from swayless.design.shaper import FloatArray
@@ -112,7 +112,7 @@ def proved_table(numbered: NumberedMove, pieces: Pieces) -> ProfileProof:
 
 
 def proved(numbered: NumberedMove, pieces: Pieces, model: ProfileModel, stop: StopLaw | None) -> ProfileProof:
-    """Play the table, and the stop from every tick from which one plays."""
+    """Play the table, and the stop from every tick in which it may begin."""
     table = proved_table(numbered, pieces)
     if stop is None:
         return table
@@ -120,15 +120,16 @@ def proved(numbered: NumberedMove, pieces: Pieces, model: ProfileModel, stop: St
     felt = numbered.felt(move.shape)
     states, sizes = numbered.model.states(felt)[1:-1], numbered.model.sizes(felt)
     extremes, error, swing, step = table.extremes, 0.0, 0.0, table.largest_step
-    for begin, end in blocks(stops_needed(len(felt), stop.ticks), stop.ticks):
-        part = slice(begin, end)
+    begins = ticks_of(stop.ranges)
+    for begin, end in blocks(begins.size, stop.ticks):
+        part = begins[begin:end] - 1
         stops = played_stops(stop, move.aborts[part], numbered.number)
         extremes = extremes.with_those_of(stops.extremes)
         missed = _missed_by(stops, numbered, states[part])
         error = max(error, error_ratio(numbered.model, missed, sizes))
         swing = max(swing, swing_ratio(numbered.model, missed))
         held = numbered.hold_ratio * stops.rests
-        step = max(step, largest_step(move.shape[begin:end], stops.inputs, held))
+        step = max(step, largest_step(move.shape[part], stops.inputs, held))
     return replace(
         table,
         extremes=extremes,

@@ -31,6 +31,7 @@ _STATES = several(_EXACT, at_least=1, at_most=MOST_STATES)
 _GAINS = several(_EXACT, at_least=2, at_most=MOST_STATES + 1)
 _LENGTHS = several(Member(integer(1, LARGEST_LENGTH)), at_least=1, at_most=LARGEST_TICKS)
 _POLYNOMIAL = several(_EXACT, at_least=1, at_most=LARGEST_DEGREE + 1)
+_RANGE = several(Member(integer(1, LARGEST_TICKS)), at_least=2, at_most=2)
 _PAIR = several(_EXACT, at_least=2, at_most=2)
 
 Rows = tuple[tuple[float, ...], ...]
@@ -76,7 +77,7 @@ class ModelRecord(Record):
 
 @dataclass(frozen=True)
 class StopRecord(Record):
-    """Pieces of the gains after an abort; null where the move goes on to its end."""
+    """Pieces of the gains after an abort, and ticks in which they begin; null where no stop is of use."""
 
     lengths: Annotated[tuple[int, ...], _LENGTHS]
     coefficients: Annotated[
@@ -84,6 +85,7 @@ class StopRecord(Record):
         several(several(_GAINS, at_least=1, at_most=LARGEST_DEGREE + 1), at_least=1, at_most=LARGEST_TICKS),
     ]
     rest: Annotated[tuple[float, ...], _GAINS]
+    ranges: Annotated[tuple[tuple[int, ...], ...], several(_RANGE, at_least=1, at_most=LARGEST_TICKS)]
 
 
 @dataclass(frozen=True)

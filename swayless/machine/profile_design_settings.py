@@ -14,7 +14,7 @@ from swayless.controller.profile import (
     StopLaw,
 )
 from swayless.controller.profile.compression import TABLE_RATIOS, TOLERANCE_RATIO, compressed, raw_pieces
-from swayless.design.playing import ShapeLimits, Stop, shortest_stop
+from swayless.design.playing import ShapeLimits, Stop, quickest_stop
 from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError
 from swayless.machine.profile_design_numbers import NumberedMove
@@ -27,7 +27,7 @@ command to twelve digits, in float a unit of the last place. Or half as much as 
 """
 
 LEAST_GAIN_RATIO = 0.05
-"""Of the move: a stop that brings rest no sooner than that is not worth its table."""
+"""Of the move: a stop that shortens the worst abort by no more than that is not worth its table."""
 
 
 def settings_for(numbered: NumberedMove) -> tuple[ProfileSettings, ProfileProof]:
@@ -103,13 +103,13 @@ def _pieces(numbered: NumberedMove) -> Pieces:
 
 
 def _stop(numbered: NumberedMove, pieces: Pieces, model: ProfileModel) -> tuple[StopLaw | None, ProfileProof]:
-    """Find the shortest stop, if it gains enough, and the smallest table of it that keeps the limits."""
+    """Find the quickest stop, if it gains enough, and the smallest table of it that keeps the limits."""
     shape = pieces.values(numbered.number)
-    found = shortest_stop(numbered.model, shape, _shape_limits(numbered))
-    if found is None or len(found.gains) > (1.0 - LEAST_GAIN_RATIO) * (shape.size - 1):
+    found = quickest_stop(numbered.model, shape, _shape_limits(numbered))
+    if found is None or found.rests(shape.size).max() > (1.0 - LEAST_GAIN_RATIO) * (shape.size - 1):
         return None, proved(numbered, pieces, model, None)
     for gains in _tables(numbered, found, shape):
-        stop = StopLaw(gains, numbered.rounded_all(found.rest))
+        stop = StopLaw(gains, numbered.rounded_all(found.rest), found.ranges)
         proof = proved(numbered, pieces, model, stop)
         if _keeps_limits(numbered, proof):
             return stop, proof

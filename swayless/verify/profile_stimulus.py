@@ -137,13 +137,22 @@ def whole_moves(operator: Operator) -> ProfileStimulus:
 
 def aborts(operator: Operator) -> ProfileStimulus:
     """Abort at the first and the last ticks and many between, and go home from where the plant rests."""
-    most = max(4, min(PHASES, MOST_TICKS // operator.ticks))
-    phases = np.unique(np.linspace(0, operator.ticks, most).astype(int))
-    for place, phase in enumerate(phases.tolist()):
+    for place, phase in enumerate(_phases(operator)):
         target = operator.home + operator.scalar(SCALES[place % 3] * operator.travel)
         operator.move(target, press=1, abort_at=phase, abort_ticks=1 + 3 * (place % 2))
         operator.move(operator.home, press=1)
     return operator.stimulus("aborts")
+
+
+def _phases(operator: Operator) -> list[int]:
+    """Give ticks of aborts: all over the move; at the ends of ranges of stops, in and between them."""
+    most = max(4, min(PHASES, MOST_TICKS // operator.ticks))
+    stop = operator.settings.stop
+    ends = np.zeros(0, dtype=np.int64) if stop is None else stop.ranges.ravel()
+    middles = (ends[1:] + ends[:-1]) // 2
+    evenly = np.linspace(0, operator.ticks, most).astype(np.int64)
+    phases = np.unique(np.concatenate([evenly, ends - 1, ends, ends + 1, middles]))
+    return [int(phase) for phase in phases if 0 <= phase <= operator.ticks]
 
 
 def toggled(operator: Operator) -> ProfileStimulus:

@@ -20,13 +20,15 @@ from swayless.controller.profile import (
     StopLaw,
     explain_profile,
 )
+from swayless.design.optimal import time_optimal
+from swayless.design.playing import ShapeLimits, quickest_stop, shape_model
 from swayless.machine.profile_file import load_profile
 from swayless.machine.profile_plant import load_below_trolley
 from swayless.plant import Mode, pendulum_frequency_hz
 
 PAGE = (Path(__file__).parents[2] / "docs" / "profile-block.md").read_text(encoding="utf-8")
 MASS = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
-STOP = StopLaw(Pieces([2], [[[0.0, -0.5, 0.0]]]), [1.0, 1.0, 0.0])
+STOP = StopLaw(Pieces([2], [[[0.0, -0.5, 0.0]]]), [1.0, 1.0, 0.0], [[1, 1]])
 SHAPE = Pieces([2, 2], [[0.25], [-0.25]])
 SETTINGS = ProfileSettings(1.0, SHAPE, MASS, STOP, Extremes((-0.25, 0.25), (0.0, 1.0)), (-2.0, 2.0))
 """The mass of 1 kg of the timing diagrams."""
@@ -70,6 +72,27 @@ def test_the_pin_table_is_that_of_the_generators():
 
 def test_the_status_table_is_that_of_the_controller():
     assert cells("value") == [[str(bit.value), bit.name, explain_profile(bit)] for bit in ProfileStatus]
+
+
+def test_the_crane_of_the_page_rests_after_an_abort_as_the_page_says(tmp_path):
+    (text,) = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    (tmp_path / "crane.toml").write_text(text)
+    task = load_profile(tmp_path / "crane.toml", {}).task
+    shape = time_optimal(task).command.values / 12.0
+    limits = ShapeLimits(-0.8 / 12.0, 0.8 / 12.0, 0.4 * 0.02 / 12.0)
+    within = ShapeLimits(*(limit * (1.0 - 1e-9) for limit in (limits.low, limits.high, limits.change)))
+    model = shape_model(task.plant, 0.02, robustness=task.robustness)
+    stop = quickest_stop(model, shape, within)
+    rests = stop.rests(shape.size)
+    # Another library may shift a range, or the length, by a tick or two.
+    numbers = re.findall(r"takes (\d+) ticks.*?at most (\d+) ticks.*?within (\d+) ticks", PAGE, re.DOTALL)
+    waits = np.where(rests < shape.size - np.arange(1, shape.size), rests - stop.ticks, 0)
+    assert [stop.ticks, waits.max(), rests.max()] == pytest.approx([int(n) for n in numbers[-1]], abs=3)
+    begins = 300 + rests[299] - stop.ticks
+    known = np.append(model.states(shape)[begins], shape[begins - 1])
+    rest, at = 12.0 * float(stop.rest @ known), 12.0 * float(model.output @ model.states(shape)[300])
+    assert [12.0 - at, rest - at] == pytest.approx([8.47, 3.44], abs=0.02)
+    assert 0.02 * rests[299] == pytest.approx(9.16, abs=0.06)  # an abort after 6 s
 
 
 def test_the_crane_of_the_page_is_the_load_below_a_trolley_and_moves(tmp_path):

@@ -17,17 +17,29 @@ from swayless.controller.profile import (
 )
 
 _RANDOM = np.random.default_rng(7)
-LAG = ProfileModel([[-0.1]], [0.1], [1.0], 0.0), StopLaw(Pieces([1], [[[0.7, 0.2]]]), [1.0, -0.1])
+LAG = ProfileModel([[-0.1]], [0.1], [1.0], 0.0), StopLaw(Pieces([1], [[[0.7, 0.2]]]), [1.0, -0.1], [[1, 9]])
 NEVER = LAG[0], None
 MASS = (
     ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0),
-    StopLaw(Pieces([1, 1], [[[0.0, -0.75, 0.125]], [[0.0, -0.25, 0.0]]]), [1.0, 0.875, 0.0]),
+    StopLaw(
+        Pieces([1, 1], [[[0.0, -0.75, 0.125]], [[0.0, -0.25, 0.0]]]),
+        [1.0, 0.875, 0.0],
+        [[2, 3], [6, 6], [9, 10]],
+    ),
 )
-SHORT = LAG[0], StopLaw(Pieces([3, 1, 2], 0.3 * _RANDOM.normal(size=(3, 1, 2))), [1.0, 0.25])
-LINEAR = MASS[0], StopLaw(Pieces([4, 1], 0.01 * _RANDOM.normal(size=(2, 2, 3))), [0.01, 0.02, 0.0])
+SHORT = (
+    LAG[0],
+    StopLaw(Pieces([3, 1, 2], 0.3 * _RANDOM.normal(size=(3, 1, 2))), [1.0, 0.25], [[1, 2], [4, 6]]),
+)
+LINEAR = (
+    MASS[0],
+    StopLaw(Pieces([4, 1], 0.01 * _RANDOM.normal(size=(2, 2, 3))), [0.01, 0.02, 0.0], [[1, 7]]),
+)
 FOUR = (
     ProfileModel(0.1 * _RANDOM.normal(size=(4, 4)), _RANDOM.normal(size=4), _RANDOM.normal(size=4), 0.3),
-    StopLaw(Pieces([5, 2], 0.1 * _RANDOM.normal(size=(2, 4, 5))), 0.1 * _RANDOM.normal(size=5)),
+    StopLaw(
+        Pieces([5, 2], 0.1 * _RANDOM.normal(size=(2, 4, 5))), 0.1 * _RANDOM.normal(size=5), [[1, 1], [3, 4]]
+    ),
 )
 """Not a plant that anybody would move: only its arithmetic matters here."""
 
@@ -62,7 +74,9 @@ def block(name, number):
     model = ProfileModel(
         held(model.change), held(model.input), held(model.output), float(held(model.feedthrough))
     )
-    stop = stop and StopLaw(Pieces(stop.pieces.lengths, held(stop.pieces.coefficients)), held(stop.rest))
+    stop = stop and StopLaw(
+        Pieces(stop.pieces.lengths, held(stop.pieces.coefficients)), held(stop.rest), stop.ranges
+    )
     ratio = float(held(hold_ratio))
     loose = Extremes((-1.0, 1.0), (0.0, 1.0))
     settings = ProfileSettings(0.01, pieces, model, stop, loose, (-64.0, 64.0), max_travel=1.0, number=kind)

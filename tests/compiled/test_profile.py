@@ -69,6 +69,8 @@ WRONG = {
     "a sign": ("(HoldRatio * MoveStart) + (Travel", "(HoldRatio * MoveStart) - (Travel"),
     "a tick of a stop": ("PieceTick >= StopLengths", "PieceTick > StopLengths"),
     "a limit": ("AtRest + (Distance * ShapeLow)", "AtRest + (Distance * ShapeHigh)"),
+    "the end of a range": ("MoveTick > StopLast", "MoveTick >= StopLast"),
+    "its beginning": ("MoveTick >= StopFirst", "MoveTick > StopFirst"),
     "an edge": ("Execute AND (NOT Executed)", "Execute"),
 }
 
@@ -133,7 +135,7 @@ def test_a_table_says_which_ticks_each_piece_is_for():
 
 def test_the_header_states_memory_and_facts_and_a_smaller_state_is_refused():
     header, source, example = generate_profile(block("switching, a mass", "double"), "c")
-    assert "#define CART_PROFILE_RAM (104u)" in header.text
+    assert "#define CART_PROFILE_RAM (112u)" in header.text
     assert " * One line of facts.\n" in header.text
     assert "state is larger than the header says" in source.text
     assert "input = { false, false, 0.5, 1.5 }" in example.text

@@ -180,30 +180,38 @@ def test_a_move_is_busy_for_its_ticks_then_done_at_the_target_exactly(kind):
 
 
 @every_kind
-def test_an_abort_rests_by_a_stop_or_by_the_end_of_the_move_whichever_is_sooner(kind):
+def test_an_abort_waits_for_a_tick_that_allows_a_stop_or_rests_at_the_end_of_the_move(kind):
     block = settings_of(*kind)
     n, m = block.pieces.ticks, block.stop.ticks
     whole = [output for _, output in moved(block, ticks=n)]
+    begins = {tick for first, last in block.stop.ranges.tolist() for tick in range(first, last + 1)}
+    assert begins
     for abort_at in range(1, n):
-        lasts = min(m, n - abort_at)
+        begin = min((tick for tick in begins if tick >= abort_at), default=n)
+        lasts = min(begin + m, n) - abort_at
+        assert lasts <= block.rest_ticks
         trace = moved(block, ticks=abort_at + lasts + 1, abort_at=abort_at)
         *played, rests = [output for _, output in trace]
         stopping = [bool(output.status & ProfileStatus.STOPPING) for output in played]
         assert stopping == [False] * abort_at + [True] * lasts
         assert (rests.aborted, rests.done, rests.busy) == (True, False, False)
-        goes_on = [output.reference for output in played] == [
+        same = [output.reference for output in played] == [
             output.reference for output in whole[: len(played)]
         ]
-        assert goes_on == (n - abort_at <= m)
-        assert (rests.position == 1.0) == goes_on
+        assert same == (rests.position == 1.0) == (begin == n)
+        assert [output.reference for output in played[:begin]] == [
+            output.reference for output in whole[:begin]
+        ]
 
 
 @every_kind
 def test_where_it_rests_after_an_abort_the_next_move_starts(kind):
     block = settings_of(*kind)
     n, m = block.pieces.ticks, block.stop.ticks
-    for abort_at in (1, n - m - 1, n - m, n - 1):
-        history = [(tick == 0, tick == abort_at, 0.0, 1.0) for tick in range(abort_at + m + 1)]
+    first, last = block.stop.ranges[-1].tolist()
+    for abort_at in (first, last, last + 1, n - 1):
+        ticks = abort_at + m if abort_at <= last else n
+        history = [(tick == 0, tick == abort_at, 0.0, 1.0) for tick in range(ticks + 1)]
         (_, rests), (_, starts) = run(block, [*history, (True, False, None, 0.5)])[-2:]
         assert rests.reference == block.number.scalar(block.hold_ratio) * rests.position
         assert starts.busy
@@ -221,7 +229,7 @@ def test_without_a_stop_every_abort_goes_on_to_the_end(kind):
     ]
     assert (rests.aborted, rests.done, rests.position) == (True, False, 1.0)
     assert block.rest_ticks == n - 1
-    assert with_stop.rest_ticks == with_stop.stop.ticks < n - 1
+    assert with_stop.rest_ticks < n - 1
 
 
 @every_kind

@@ -107,6 +107,23 @@ def test_moves_and_stops_of_random_plants_rest_as_promised_within_all_limits(
     assert any(output.aborted for output in outputs) == aborted
 
 
+@settings(derandomize=True, deadline=None, max_examples=12)
+@given(move=moves(), number=st.sampled_from(["double", "float"]))
+def test_an_abort_at_any_tick_rests_after_the_next_stop_that_is_allowed_or_with_the_move(move, number):
+    block = make_profile_design("random", "test.toml", move, number).settings
+    n = block.pieces.ticks
+    ranges = [] if block.stop is None else block.stop.ranges.tolist()
+    start, target = float(block.number.scalar(move.start)), float(block.number.scalar(move.target))
+    found = []
+    for abort_at in range(1, n):
+        trace = run(block, [(tick == 0, tick == abort_at, start, target) for tick in range(n + 1)])
+        found.append([output.aborted for _, output in trace].index(True) - abort_at)
+        waits = [max(first - abort_at, 0) for first, last in ranges if last >= abort_at]
+        stops = [wait + block.stop.ticks for wait in waits]
+        assert found[-1] == min([n - abort_at, *stops])
+    assert max(found) == block.rest_ticks  # the promise is kept, and no longer than it need be
+
+
 def unit_of(design):
     """Of the states of the design's model, in those of the plant."""
     move = design.move

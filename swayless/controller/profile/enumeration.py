@@ -1,4 +1,4 @@
-"""All that a motion profile can play: every tick of its table, and every stop from every tick.
+"""All that a motion profile can play: every tick of its table, and every stop.
 
 In the number type, operation by operation as the block does, so that what is proved is what runs. Not for:
 running the block tick by tick (`profile`).
@@ -126,7 +126,7 @@ def played_stops(stop: StopLaw, aborts: FloatArray, number: NumberType) -> Playe
     Examples
     --------
     >>> from swayless.controller.number import number_type
-    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0])
+    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0], [[1, 1]])
     >>> played_stops(stop, [[0.5, 1.0, 1.0], [2.0, 2.0, 1.0]], number_type("double")).rests.tolist()
     [1.0, 3.0]
     """

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swayless.controller.profile.pieces import Pieces
 from swayless.design.shaper import FloatArray
@@ -65,15 +66,18 @@ class StopLaw:
         Gains of each tick of the stop, rows of n + 1: its input is their product with v.
     rest : ndarray, shape (n + 1,)
         Position of rest: rest @ v.
+    ranges : ndarray of int, shape (r, 2)
+        First and last tick of each range in which it may begin; at least one, from tick 1 on, rising.
 
     Raises
     ------
     ControllerError
-        If shapes do not fit.
+        If shapes do not fit, or ranges do not rise.
     """
 
     pieces: Pieces
     rest: FloatArray
+    ranges: NDArray[np.int64]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rest", _fixed(self.rest))
@@ -81,6 +85,16 @@ class StopLaw:
             raise ControllerError(
                 f"profile: stop of gains {self.pieces.coefficients.shape} and rest {self.rest.shape}: must be"
                 " (p, d + 1, n + 1) and (n + 1,)"
+            )
+        ranges = np.array(self.ranges, dtype=np.int64)
+        ranges.flags.writeable = False
+        object.__setattr__(self, "ranges", ranges)
+        rises = ranges.ndim == 2 and ranges.shape[1] == 2 and ranges.size > 0 and ranges[0, 0] >= 1
+        # A tick lies between two ranges: else they are one.
+        if not (rises and (np.diff(ranges) >= 0).all() and (ranges[1:, 0] > ranges[:-1, 1] + 1).all()):
+            raise ControllerError(
+                f"profile: stop of ranges {ranges.tolist()}: must be first and last tick of each, rising,"
+                " from 1 on, apart from each other"
             )
 
     @property

@@ -30,6 +30,7 @@ class MovingModel:
         self._output = [scalar(value) for value in [*model.output.tolist(), model.feedthrough]]
         self._stop = None if stop is None else TablePlayer(stop.pieces, number)
         self._rest = [] if stop is None else [scalar(value) for value in stop.rest.tolist()]
+        self._ranges: list[list[int]] = [] if stop is None else stop.ranges.tolist()
         self.start()
 
     def start(self) -> None:
@@ -37,21 +38,27 @@ class MovingModel:
         self._states = [self._zero] * len(self._rows)
         self._last = self._zero
         self._known: list[Any] = []
+        self._tick = self._range = 0
 
     def advance(self, shape: Any) -> Any:
         """Take the input of this tick; give the position when the tick begins."""
         now = [*self._states, shape]
         self._states = [state + summed(row, now) for state, row in zip(self._states, self._rows, strict=True)]
         self._last = shape
+        self._tick += 1
         return summed(self._output, now)
 
-    def stops_within(self, ticks: int) -> bool:
-        """Begin a stop, if that is over sooner than in so many ticks; say whether it is."""
+    def stops(self, is_wanted: bool) -> bool:
+        """Begin a stop, if one is wanted and may begin in this tick; to be called in each tick of a move."""
         if self._stop is None:
             return False
-        self._stop.rewind()
-        self._known = [*self._states, self._last]
-        return ticks > self._stop.left
+        if self._range < len(self._ranges) and self._tick > self._ranges[self._range][1]:
+            self._range += 1
+        begins = is_wanted and self._range < len(self._ranges) and self._tick >= self._ranges[self._range][0]
+        if begins:
+            self._stop.rewind()
+            self._known = [*self._states, self._last]
+        return begins
 
     @property
     def has_stopped(self) -> bool:

@@ -35,11 +35,10 @@ class MotionProfile:
     --------
     A mass of 1 kg moves by 1 m in two ticks of 1 s:
 
-    >>> from swayless.controller.profile import Extremes, Pieces, ProfileModel, StopLaw
+    >>> from swayless.controller.profile import Extremes, Pieces, ProfileModel
     >>> mass = ProfileModel([[0.0, 1.0], [0.0, 0.0]], [0.5, 1.0], [1.0, 0.0], 0.0)
-    >>> stop = StopLaw(Pieces([1], [[[0.0, -1.0, 0.0]]]), [1.0, 0.5, 0.0])
-    >>> table, extremes = Pieces([1, 1], [[1.0], [-1.0]]), Extremes((-1.0, 1.0), (0.0, 1.0))
-    >>> profile = MotionProfile(ProfileSettings(1.0, table, mass, stop, extremes, (-4.0, 4.0)))
+    >>> table, extremes = Pieces([1, 1], [[1.0], [-1.0]]), Extremes((-1.0, 1.0), (0.0, 0.0))
+    >>> profile = MotionProfile(ProfileSettings(1.0, table, mass, None, extremes, (-4.0, 4.0)))
     >>> for tick in range(3):
     ...     output = profile.step(ProfileInput(True, False, start=2.0, target=5.0))
     ...     print(output.reference, output.position, output.busy, output.done)
@@ -83,14 +82,14 @@ class MotionProfile:
         return ProfileOutput(reference, position, busy, self._done, self._aborted, status)
 
     def _go_on(self, abort: bool) -> None:
-        """End what is over; after an abort begin a stop, unless the move itself is over as soon."""
+        """End what is over; after an abort begin a stop in the first tick in which one may begin."""
         if self._phase == _IN_STOP and self._model.has_stopped:
             self._come_to_rest(self._start + (self._travel * self._model.rest))
         elif self._phase == _MOVING and self._table.is_over:
             self._come_to_rest(self._target)
-        elif self._phase == _MOVING and abort and not self._is_aborting:
-            self._is_aborting = True
-            if self._model.stops_within(self._table.left):
+        elif self._phase == _MOVING:
+            self._is_aborting = self._is_aborting or abort
+            if self._model.stops(self._is_aborting):
                 self._phase = _IN_STOP
 
     def _come_to_rest(self, position: Any) -> None:

@@ -11,6 +11,7 @@ from swayless.controller.number import NUMBER_TYPES, NumberType
 from swayless.controller.profile.enumeration import Extremes
 from swayless.controller.profile.model import ProfileModel, StopLaw
 from swayless.controller.profile.pieces import Pieces, dtype_of
+from swayless.design.playing import ticks_to_rest
 from swayless.design.shaper import FloatArray
 from swayless.errors import ControllerError
 
@@ -36,8 +37,8 @@ class ProfileSettings:
     model : ProfileModel
         The plant from tick to tick.
     stop : StopLaw or None
-        What is played after an abort with more ticks left than it has; None where the move always goes on
-        to its end, as no stop would be over sooner.
+        What is played from the first tick of its ranges at or after an abort; where none is left, or where
+        stop is None, the move goes on to its end.
     extremes : Extremes
         Of all that can be played.
     limits : tuple of two floats
@@ -85,7 +86,10 @@ class ProfileSettings:
     @property
     def rest_ticks(self) -> int:
         """At most so many ticks after an abort the plant rests: by a stop, or by the end of the move."""
-        return self.pieces.ticks - 1 if self.stop is None else self.stop.ticks
+        ticks, stop = self.pieces.ticks, self.stop
+        if stop is None:
+            return ticks - 1
+        return int(ticks_to_rest(stop.ranges, stop.ticks, ticks).max())
 
     def _check_sizes(self) -> None:
         if self.pieces.coefficients.ndim != 2:
@@ -94,6 +98,11 @@ class ProfileSettings:
             raise ControllerError(
                 f"profile: stop of {self.stop.rest.size} gains a tick: must be {self.model.order + 1}, for"
                 " the states of the model and the input before"
+            )
+        if self.stop is not None and self.stop.ranges[-1, 1] + self.stop.ticks >= self.pieces.ticks:
+            raise ControllerError(
+                f"profile: stop of {self.stop.ticks} ticks from tick {self.stop.ranges[-1, 1]}: must be over"
+                f" before the move, which has {self.pieces.ticks}"
             )
 
     def _numbers(self) -> dict[str, tuple[FloatArray, float]]:

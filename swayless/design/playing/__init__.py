@@ -12,19 +12,23 @@ from swayless.design.playing.proof import (
     swing_ratio,
 )
 from swayless.design.playing.shape_model import ShapeModel, shape_model
-from swayless.design.playing.stopping import ShapeLimits, Stop, shortest_stop, stops_needed
+from swayless.design.playing.stopping import ShapeLimits, Stop, quickest_stop
+from swayless.design.playing.waiting import fewer_ranges, ranges_of, ticks_of, ticks_to_rest
 
 __all__ = [
     "ShapeLimits",
     "ShapeModel",
     "Stop",
     "error_ratio",
+    "fewer_ranges",
     "largest_step",
     "missed_by_move",
     "missed_by_stops",
     "noise_gain",
+    "quickest_stop",
+    "ranges_of",
     "shape_model",
-    "shortest_stop",
-    "stops_needed",
     "swing_ratio",
+    "ticks_of",
+    "ticks_to_rest",
 ]

@@ -11,15 +11,18 @@ Not for: moves to a target.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swayless.design.playing.shape_model import ShapeModel
+from swayless.design.playing.waiting import fewer_ranges, ranges_of, ticks_to_rest
 from swayless.design.shaper import FloatArray
 
-_STRIDE = 16  # of the aborts by which lengths are rejected, before all are tried
+_TRIED_ABORTS = 2000  # at most, while lengths are compared; of the best one all are
+_RUNGS = 96  # of a ladder of lengths
 _BLOCK = 1 << 22  # inputs of stops that are held in memory at once
 
 
@@ -50,20 +53,36 @@ class Stop:
         Input of each tick.
     rest : ndarray, shape (states + 1,)
         Position of rest.
+    ranges : ndarray of int, shape (r, 2)
+        First and last tick of the move of each range in which it may begin, rising. From others a limit would
+        break, it would rest beyond the target, or the move is over as soon.
     """
 
     gains: FloatArray
     rest: FloatArray
+    ranges: NDArray[np.int64]
+
+    @property
+    def ticks(self) -> int:
+        """Ticks that it lasts."""
+        return len(self.gains)
 
     def of(self, known: FloatArray) -> FloatArray:
         """Give inputs, shape (m, k), of stops from v, shape (states + 1, k)."""
         return np.asarray(self.gains @ known)
 
+    def rests(self, move_ticks: int) -> NDArray[np.int64]:
+        """Give how long an abort at each tick of a move takes, as `ticks_to_rest`."""
+        return ticks_to_rest(self.ranges, self.ticks, move_ticks)
 
-def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> Stop | None:
-    """Find the length of a stop at which it keeps the limits wherever the move itself would last longer.
 
-    After an abort with no more ticks left than a stop has, the move goes on to its end: it rests no later.
+def quickest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> Stop | None:
+    """Find the stop after which, and after waiting for which, aborts take least.
+
+    An abort lets the move go on to the next tick from which the stop keeps the limits and rests between
+    start and target, or to the end of the move where that is sooner. Least is the time that the worst abort
+    takes to rest, and among equals the average one: a short stop may begin in few ticks, a long one takes its
+    time from each.
 
     Parameters
     ----------
@@ -75,66 +94,71 @@ def shortest_stop(model: ShapeModel, shape: FloatArray, limits: ShapeLimits) -> 
     Returns
     -------
     Stop or None
-        Of m ticks, where one of m - 1 would break a limit, or have fewer ticks than there are conditions of
-        rest. None where nothing is gained: after the first tick the move is over as soon as a stop would be.
+        None where every abort may as well go on to the end of the move.
 
     Examples
     --------
     A mass is pushed for three ticks and braked for three. After an abort at tick 1 or 2 it is stopped in
-    three; from tick 3 on the move itself is over in three:
+    two; from tick 3 on that would take more than the force that there is, and the move is over in three:
 
     >>> from swayless.design.optimal import LinearPlant
     >>> from swayless.design.playing.shape_model import shape_model
     >>> mass = LinearPlant([[0.0, 1.0], [0.0, 0.0]], [0.0, 1.0], [1.0, 0.0])
-    >>> shape = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
-    >>> stop = shortest_stop(shape_model(mass, 1.0), shape, ShapeLimits(-1.1, 1.1))
+    >>> shape = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0]) / 9.0
+    >>> stop = quickest_stop(shape_model(mass, 1.0), shape, ShapeLimits(-0.13, 0.13))
     >>> stop.gains.round(12) + 0.0
-    array([[ 0.        , -0.33333333,  0.        ],
-           [ 0.        , -0.33333333,  0.        ],
-           [ 0.        , -0.33333333,  0.        ]])
+    array([[ 0. , -0.5,  0. ],
+           [ 0. , -0.5,  0. ]])
+    >>> stop.ranges.tolist(), stop.rests(6).tolist()
+    ([[1, 2]], [2, 2, 3, 2, 1])
     """
+    ticks = shape.size
     known = np.vstack([model.states(shape)[1:-1].T, shape[:-1]])
-    below, ticks = model.final.size - 1, model.final.size
-    found, beyond = None, known.shape[1]
-    while ticks < beyond and (found := _keeping(model, known, limits, ticks)) is None:
-        below, ticks = ticks, 2 * ticks
-    ticks = min(ticks, beyond)
-    while ticks - below > 1:
-        middle = (below + ticks) // 2
-        tried = _keeping(model, known, limits, middle)
-        if tried is None:
-            below = middle
-        else:
-            ticks, found = middle, tried
-    return found
+    every = -(-ticks // _TRIED_ABORTS)
+
+    def cost(length: int) -> tuple[int, float]:
+        stop = _keeping(model, known, limits, length, every)
+        rests = np.arange(ticks - 1, 0, -1) if stop is None else stop.rests(ticks)
+        return int(rests.max(initial=0)), float(rests.mean()) if rests.size else 0.0
+
+    length = _least(cost, model.final.size, ticks - 2)
+    found = None if length is None else _keeping(model, known, limits, length, 1)
+    if found is None:
+        return None
+    fewer = fewer_ranges(found.ranges, found.ticks, ticks)
+    return replace(found, ranges=fewer) if fewer.size else None
 
 
-def _keeping(model: ShapeModel, known: FloatArray, limits: ShapeLimits, ticks: int) -> Stop | None:
-    """Give the stop of a length if it keeps the limits after every abort that has more ticks left."""
+def _least(cost: Callable[[int], tuple[int, float]], low: int, high: int) -> int | None:
+    """Find where a cost is least: on a ladder, then on finer ones between the neighbours of the best rung."""
+    rungs = np.unique(np.geomspace(low, max(low, high), _RUNGS).astype(np.int64))[: max(0, high - low + 1)]
+    costs: dict[int, tuple[int, float]] = {}
+    best = None
+    while not set(rungs.tolist()) <= costs.keys():
+        costs.update({rung: cost(rung) for rung in rungs.tolist() if rung not in costs})
+        tried = sorted(costs)
+        best = min(tried, key=lambda rung: costs[rung])
+        place = tried.index(best)
+        around = tried[max(place - 1, 0)], tried[min(place + 1, len(tried) - 1)]
+        rungs = np.unique(np.linspace(*around, _RUNGS).astype(np.int64))
+    return best
+
+
+def _keeping(
+    model: ShapeModel, known: FloatArray, limits: ShapeLimits, length: int, every: int
+) -> Stop | None:
+    """Give the stop of a length, with the ticks from which it keeps the limits, of which some are tried."""
     try:
-        stop = _stop_of(model, limits, ticks)
+        stop = _stop_of(model, limits, length)
     except np.linalg.LinAlgError:
         return None  # so short that conditions cannot be told apart
-    early = known[:, : stops_needed(known.shape[1] + 1, ticks)]
-    # Of aborts a few first: most lengths that are too short are found so.
-    for aborts in (early[:, ::_STRIDE], early):
-        for begin, end in blocks(aborts.shape[1], ticks):
-            if not (_shares(stop, aborts[:, begin:end], model, limits) <= 1.0).all():
-                return None
-    return stop
-
-
-def stops_needed(move_ticks: int, stop_ticks: int) -> int:
-    """Count the ticks 1, 2, ... at which an abort begins a stop, as the move would last longer.
-
-    Examples
-    --------
-    A move of 6 ticks has 5 left at tick 1:
-
-    >>> stops_needed(6, 3), stops_needed(6, 5)
-    (2, 0)
-    """
-    return max(0, move_ticks - 1 - stop_ticks)
+    ticks = np.arange(1, known.shape[1] + 1 - length, every)
+    kept = [
+        ticks[begin:end][_is_kept(stop, known[:, ticks[begin:end] - 1], model, limits)]
+        for begin, end in blocks(ticks.size, length)
+    ]
+    found = np.concatenate(kept) if kept else ticks
+    return replace(stop, ranges=ranges_of(found)) if found.size else None
 
 
 def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
@@ -167,7 +191,14 @@ def _stop_of(model: ShapeModel, limits: ShapeLimits, ticks: int) -> Stop:
     wanted, per_rest = both[:, :-1], both[:, -1]
     rest = per_rest @ wanted / (per_rest @ per_rest)
     prices = np.linalg.solve(half.T, wanted - np.outer(per_rest, rest))
-    return Stop(held * rest + np.outer(itself, last - held * rest) + added @ prices, rest)
+    gains = held * rest + np.outer(itself, last - held * rest) + added @ prices
+    return Stop(gains, rest, np.zeros((0, 2), dtype=np.int64))
+
+
+def _is_kept(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> NDArray[np.bool_]:
+    """Whether each stop keeps the limits, and rests between start and target."""
+    rests = stop.rest @ known
+    return np.asarray((_shares(stop, known, model, limits) <= 1.0) & (rests >= 0.0) & (rests <= 1.0))
 
 
 def _shares(stop: Stop, known: FloatArray, model: ShapeModel, limits: ShapeLimits) -> FloatArray:

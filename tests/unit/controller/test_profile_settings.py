@@ -23,7 +23,7 @@ from swayless.errors import ControllerError
 
 MODEL = ProfileModel([[0.0, 0.25], [-0.125, -0.0625]], [0.0, 0.125], [0.75, 0.5], 0.25)
 GAINS = np.array([[[0.5, -1.0, 0.25], [0.25, 0.5, -0.125]], [[-0.5, 1.0, 0.125], [0.0, 0.25, 0.5]]])
-STOP = StopLaw(Pieces([2, 1], GAINS), [1.0, 0.5, 0.25])
+STOP = StopLaw(Pieces([2, 1], GAINS), [1.0, 0.5, 0.25], [[1, 2], [4, 5]])
 TABLE = Pieces([3, 2, 4], [[1.0, 0.125], [-0.5, 0.25], [-1.0, 0.5]])
 BLOCK = ProfileSettings(
     0.01, TABLE, MODEL, STOP, Extremes((-4.0, 4.0), (-2.0, 2.0)), (-16.0, 16.0), hold_ratio=0.5
@@ -36,14 +36,15 @@ def test_every_stop_is_played_with_the_bits_that_were_enumerated(number):
     block = replace(BLOCK, number=kind)
     move = played_move(TABLE, MODEL, kind)
     stops = played_stops(STOP, move.aborts, kind)
-    for abort_at in range(1, TABLE.ticks - STOP.ticks):
+    for abort_at in range(1, 6):
+        begins = 4 if abort_at == 3 else abort_at
         profile, shapes = MotionProfile(block), []
-        for tick in range(abort_at + STOP.ticks + 1):
+        for tick in range(begins + STOP.ticks + 1):
             output = profile.step(ProfileInput(tick == 0, tick == abort_at, kind.scalar(0), kind.scalar(1)))
             shapes.append(float(output.reference))
-        assert shapes[:abort_at] == move.shape[:abort_at].tolist()
-        assert shapes[abort_at:-1] == stops.inputs[:, abort_at - 1].tolist()
-        assert float(output.position) == stops.rests[abort_at - 1]
+        assert shapes[:begins] == move.shape[:begins].tolist()
+        assert shapes[begins:-1] == stops.inputs[:, begins - 1].tolist()
+        assert float(output.position) == stops.rests[begins - 1]
 
 
 @pytest.mark.parametrize("number", ["double", "float"])
@@ -78,7 +79,14 @@ def test_where_a_stop_would_rest_beyond_the_limits_the_move_is_refused():
         ({"hold_ratio": np.nan}, "profile: hold_ratio = nan: must be finite"),
         ({"extremes": Extremes((0.0, 2e9), (0.0, 1.0))}, "profile: extremes.shape = 2000000000.0: must be"),
         ({"pieces": Pieces([1], [[[1.0]]])}, "profile: pieces of rows"),
-        ({"stop": StopLaw(Pieces([1], [[[1.0]]]), [1.0])}, "profile: stop of 1 gains a tick: must be 3"),
+        (
+            {"stop": StopLaw(Pieces([1], [[[1.0]]]), [1.0], [[1, 1]])},
+            "profile: stop of 1 gains a tick: must be 3",
+        ),
+        (
+            {"stop": replace(STOP, ranges=[[1, 2], [4, 6]])},
+            "profile: stop of 3 ticks from tick 6: must be over before the move, which has 9",
+        ),
         ({"number": number_type("int32")}, "profile: number = 'int32': must be double or float"),
         (
             {"number": number_type("float"), "hold_ratio": 0.1},
@@ -96,7 +104,15 @@ def test_models_and_stops_of_shapes_that_do_not_fit_are_refused():
     with pytest.raises(ControllerError, match=r"profile: model of shapes \(1, 1\), \(2,\), \(2,\): must be"):
         ProfileModel([[0.0]], [1.0, 2.0], [1.0, 2.0], 0.0)
     with pytest.raises(ControllerError, match=r"profile: stop of gains \(1, 1\) and rest \(2,\): must be"):
-        StopLaw(Pieces([1], [[1.0]]), [1.0, 2.0])
+        StopLaw(Pieces([1], [[1.0]]), [1.0, 2.0], [[1, 1]])
+
+
+@pytest.mark.parametrize(
+    "ranges", [[], [1, 2], [[0, 1]], [[2, 1]], [[1, 2], [3, 4]], [[4, 5], [1, 2]], [[1, 2, 3]]]
+)
+def test_ranges_that_do_not_rise_apart_from_each_other_are_refused(ranges):
+    with pytest.raises(ControllerError, match=r"profile: stop of ranges \[.*\]: must be first and last tick"):
+        replace(STOP, ranges=ranges)
 
 
 def test_every_bit_is_explained():

@@ -6,7 +6,17 @@ from scipy.linalg import expm
 
 from swayless.design.optimal import Command, LinearPlant, Robustness, transform_derivatives
 from swayless.design.optimal.robustification import rest_conditions
-from swayless.design.playing import ShapeLimits, error_ratio, missed_by_move, shape_model, shortest_stop
+from swayless.design.playing import (
+    ShapeLimits,
+    error_ratio,
+    fewer_ranges,
+    missed_by_move,
+    quickest_stop,
+    ranges_of,
+    shape_model,
+    ticks_of,
+    ticks_to_rest,
+)
 from swayless.errors import DesignError
 
 OSCILLATOR = LinearPlant.from_transfer_function([1.0], [0.01, 0.004, 1.0])
@@ -104,7 +114,7 @@ def test_a_stop_is_the_least_of_its_length_by_definition(plant, robustness, chan
     shape = smallest_shape(model, 60)
     most = 3.0 * max(model.hold_ratio, np.abs(shape).max())
     limits = ShapeLimits(-most, most, change * most)
-    stop = shortest_stop(model, shape, limits)
+    stop = quickest_stop(model, shape, limits)
     for tick in (1, 20, 59):
         known = np.append(model.states(shape)[tick], shape[tick - 1])
         inputs, rest = by_definition(model, limits, len(stop.gains), known)
@@ -120,7 +130,7 @@ def test_a_move_and_its_stop_are_together_as_robust_as_the_move(plant, robustnes
     model = shape_model(plant, TICK_S, robustness=robustness)
     shape = smallest_shape(model, 60)
     most = 3.0 * np.abs(shape).max()
-    stop = shortest_stop(model, shape, ShapeLimits(-most, most))
+    stop = quickest_stop(model, shape, ShapeLimits(-most, most))
     pole = complex(plant.ringing_poles_rad_s[0])
     for tick in (1, 25, 59):
         known = np.append(model.states(shape)[tick], shape[tick - 1])
@@ -143,7 +153,7 @@ def test_stops_of_moves_that_last_longer_keep_the_limits_and_with_a_tick_less_th
     model = shape_model(MASS, TICK_S)
     shape = np.convolve(np.repeat([0.9, -0.9], 20), np.ones(10) / 10.0)
     limits = ShapeLimits(-1.0, 1.0, change)
-    stop = shortest_stop(model, shape, limits)
+    stop = quickest_stop(model, shape, limits)
     known = np.vstack([model.states(shape)[1:-1].T, shape[:-1]])
     ticks = len(stop.gains)
     longer = known[:, : shape.size - 1 - ticks]
@@ -156,7 +166,7 @@ def test_stops_of_moves_that_last_longer_keep_the_limits_and_with_a_tick_less_th
 def test_a_mass_is_braked_evenly():
     model = shape_model(MASS, TICK_S)
     shape = np.repeat([1.0, -1.0], 40)
-    stop = shortest_stop(model, shape, ShapeLimits(-1.0, 1.0))
+    stop = quickest_stop(model, shape, ShapeLimits(-1.0, 1.0))
     inputs = stop.gains @ np.append(model.states(shape)[30], 1.0)
     assert np.ptp(inputs) < 1e-12  # constant deceleration has the least sum of squares
     assert len(inputs) in {39, 40}  # from tick 39 on the move is over in 40; limits may be hit by rounding
@@ -165,18 +175,63 @@ def test_a_mass_is_braked_evenly():
 @pytest.mark.parametrize("change", [np.inf, 0.5])
 def test_a_plant_of_one_state_is_stopped_in_a_tick_where_limits_allow_it(change):
     lag = shape_model(LinearPlant.from_transfer_function([3.0], [0.2, 1.0]), TICK_S)
-    stop = shortest_stop(lag, smallest_shape(lag, 40), ShapeLimits(-0.1, 1.0, change))
+    stop = quickest_stop(lag, smallest_shape(lag, 40), ShapeLimits(-0.1, 1.0, change))
     assert len(stop.gains) == 1
     if change == np.inf:  # it rests where it is, under the input that holds it there
         assert stop.gains[0] == pytest.approx(lag.hold_ratio * stop.rest)
 
 
+def test_of_all_lengths_the_one_whose_worst_abort_waits_and_stops_soonest_is_taken():
+    model = shape_model(MASS, TICK_S)
+    shape = np.repeat([1.0, 0.0, -1.0], [20, 30, 20])
+    speed, n = np.abs(model.states(shape)[1:-1] @ [0.0, 1.0]) / TICK_S, shape.size
+    aborts, worst = np.arange(1, n), {}
+    # A mass is braked evenly, from a speed of v ticks of full force in v ticks.
+    for length in range(2, n - 1):
+        begins = aborts[(speed <= 1.05 * length) & (aborts + length < n)]
+        waits = begins - aborts[:, np.newaxis]
+        stops = np.where(waits < 0, n, waits).min(axis=1, initial=n) + length
+        rests = np.minimum(stops, n - aborts)
+        worst[length] = rests.max(), rests.mean()
+    stop = quickest_stop(model, shape, ShapeLimits(-1.05, 1.05))
+    rests = stop.rests(n)
+    assert (rests.max(), rests.mean()) == min(worst.values())
+    assert stop.ticks == min(worst, key=worst.get)
+    assert stop.ranges.tolist() == [[1, n - stop.ticks - 1]]
+
+
+@pytest.mark.parametrize("ticks", [[], [4], [1, 2, 3], [2, 5, 6, 9]])
+def test_ranges_have_exactly_the_ticks_that_they_were_made_of(ticks):
+    ranges = ranges_of(ticks)
+    assert ticks_of(ranges).tolist() == ticks
+    assert (ranges[1:, 0] > ranges[:-1, 1] + 1).all()
+
+
+def test_an_abort_rests_after_the_next_tick_that_allows_a_stop_or_at_the_end():
+    ticks, stop, move = [3, 4, 9], 5, 20
+    for abort, found in enumerate(ticks_to_rest(ranges_of(ticks), stop, move).tolist(), start=1):
+        waits = [tick - abort + stop for tick in ticks if tick >= abort]
+        assert found == min([move - abort, *waits])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_without_the_ranges_that_are_left_out_no_abort_takes_much_longer(seed):
+    kept = np.flatnonzero(np.random.default_rng(seed).random(320) < 0.6) + 1
+    every = ranges_of(kept)
+    few = fewer_ranges(every, 60, 400)
+    before, after = (ticks_to_rest(ranges, 60, 400) for ranges in (every, few))
+    assert len(few) < len(every)
+    assert set(ticks_of(few)) < set(kept)
+    assert after.max() == before.max()
+    assert (after - before).max() <= 4  # a hundredth of the move
+
+
 def test_a_move_that_is_over_as_soon_needs_no_stop():
     model = shape_model(MASS, TICK_S)
-    assert shortest_stop(model, np.array([1.0, -1.0]), ShapeLimits(-1.1, 1.1)) is None
+    assert quickest_stop(model, np.array([1.0, -1.0]), ShapeLimits(-1.1, 1.1)) is None
     swing = shape_model(LinearPlant.from_transfer_function([1.0], [0.01, 0.0, 1.0]), TICK_S)
     # Limits that leave no stop the room to end sooner than any move of 12 ticks.
-    assert shortest_stop(swing, smallest_shape(swing, 12), ShapeLimits(-0.01, 0.01)) is None
+    assert quickest_stop(swing, smallest_shape(swing, 12), ShapeLimits(-0.01, 0.01)) is None
 
 
 def test_what_robustness_cannot_be_against_is_refused():

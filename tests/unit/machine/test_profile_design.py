@@ -42,8 +42,9 @@ def test_the_example_is_played_from_seven_switches_and_rests_in_51_ticks_after_a
     assert made.table_bytes == (464, 70)
     assert made.settings.rest_ticks == 51
     # Another library may cut a piece a tick later: decision 31 says 1230.
-    assert made.stop_bytes[0] == 2040
-    assert 1200 <= made.stop_bytes[1] <= 1300
+    assert made.stop_bytes[0] == 1880
+    assert 1150 <= made.stop_bytes[1] <= 1300
+    assert made.settings.stop.ranges.tolist() == [[1, 6]]
     assert (made.guarantee.final_error_ratio, made.guarantee.stop_error_ratio) == (1e-12, 1e-12)
     low, high = made.settings.extremes.rest
     assert low == 0.0
@@ -55,7 +56,7 @@ def test_in_float_less_is_promised(oscillator):
     assert made.table_bytes == (232, 42)
     assert 1e-8 < made.guarantee.final_error_ratio <= 1e-6
     assert 1e-8 < made.guarantee.stop_error_ratio <= 2e-6
-    assert made.stop_bytes == (1020, 186)
+    assert made.stop_bytes == (940, 186)
 
 
 def test_two_thousand_ticks_of_switching_are_two_pieces_and_their_stop_is_one():
@@ -149,6 +150,13 @@ def broken(document, path, value):
         (["model", "output"], [1.0], "model: profile: model of shapes"),
         (["stop", "coefficients", 0, 0, 0], 0.01, "guarantee.stop_error_ratio: promises"),
         (["stop", "rest", 0], 0.5, "guarantee.stop_error_ratio: promises"),
+        (["stop", "ranges", 0, 1], 8, "extremes: must be"),
+        (
+            ["stop", "ranges", 0, 1],
+            57,
+            "max_travel: profile: stop of 47 ticks from tick 57: must be over before",
+        ),
+        (["stop", "ranges", 0, 0], 7, "stop: profile: stop of ranges [[7, 6]]: must be first and last tick"),
         (["stop", "rest"], [1.0, 2.0], "stop: profile: stop of gains"),
         (["guarantee", "final_error_ratio"], 1e-18, "guarantee.final_error_ratio: promises 1e-18"),
         (["guarantee", "final_error_ratio"], 1e-9, "guarantee.final_error_ratio: promises 1e-09"),

@@ -5,17 +5,18 @@
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.005 s. A move takes 1142 ticks, 5.71 s, however far it goes.
- * At most 386 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
+ * At most 386 ticks, 1.93 s, after an abort the plant rests:
+ * by a stop from the next tick that allows one, or the end of the move.
  * References from -0.1 to 1.1; a move that could need more is refused.
  * Design: 0 to 1, zero-order hold; SHA-256:
- * 5c300dab1ad7b720e506b2838d3149c8f551c827659b4364b99585d10ae2b9f5
+ * 8daf580aa4f76a2621f4847c421a2fd8665c9dd013c7faf723a0035a6736b436
  * Proved with these numbers: the move of the design leaves at most
  * 2e-11 of each state's largest, an abort at any tick of it 2e-11.
  * Another start or travel T adds at most 8.6e-15 R / |T|, R its largest reference.
  * Limits are kept. A stop rests at 0 to 1 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
- * Memory: 232 bytes of state at most, 7876 of tables.
+ * Memory: 240 bytes of state at most, 7880 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -30,6 +31,7 @@ typedef double inverted_servo_number_t;
 #define INVERTED_SERVO_MOVE_TERMS (10u)
 #define INVERTED_SERVO_STOP_PIECES (13u)
 #define INVERTED_SERVO_STOP_TERMS (10u)
+#define INVERTED_SERVO_STOP_RANGES (1u)
 
 /* Does not compile when the state is larger than the header says. */
 typedef char inverted_servo_profile_ram_check[(sizeof(inverted_servo_profile_t) <= INVERTED_SERVO_PROFILE_RAM) ? 1 : -1];
@@ -580,6 +582,16 @@ static const inverted_servo_number_t inverted_servo_STOP_REST[6] = {
     0.0003743813860528422, 0.008764407238722061, 0.04428745802066661, 0.22241293368361256, 0.8461692116477272, 0.0
 };
 
+/* First tick of the move in each range in which a stop may begin. */
+static const uint16_t inverted_servo_STOP_FIRST[1] = {
+    1u /* 0.005 s */
+};
+
+/* Last tick of the move in each range in which a stop may begin. */
+static const uint16_t inverted_servo_STOP_LAST[1] = {
+    755u /* 3.775 s */
+};
+
 /* Sum of the products of a table's row with the states and the shape. */
 static inverted_servo_number_t inverted_servo_row_by(const inverted_servo_number_t *row, const inverted_servo_number_t *values)
 {
@@ -619,7 +631,7 @@ static inverted_servo_number_t inverted_servo_next_of_move(inverted_servo_profil
     const inverted_servo_number_t *term = &inverted_servo_MOVE_SHAPES[p->piece * INVERTED_SERVO_MOVE_TERMS];
     const inverted_servo_number_t shape = inverted_servo_polynomial(term, INVERTED_SERVO_MOVE_TERMS, p->piece_tick, inverted_servo_MOVE_STEPS[p->piece]);
     inverted_servo_pass(p, inverted_servo_MOVE_LENGTHS[p->piece]);
-    p->left -= 1u;
+    p->tick += 1u;
     return shape;
 }
 
@@ -654,7 +666,7 @@ static inverted_servo_number_t inverted_servo_advance(inverted_servo_profile_t *
     return results[INVERTED_SERVO_PROFILE_STATES];
 }
 
-/* End what is over; an abort begins a stop, unless the move is over sooner. */
+/* End what is over; after an abort begin a stop in the first tick that allows one. */
 static void inverted_servo_go_on(inverted_servo_profile_t *p, bool stop)
 {
     uint32_t column;
@@ -672,9 +684,12 @@ static void inverted_servo_go_on(inverted_servo_profile_t *p, bool stop)
         p->aborted = p->aborting;
         p->aborting = false;
         p->position = p->target;
-    } else if (p->busy && stop && (!p->aborting)) {
-        p->aborting = true;
-        p->stopping = p->left > INVERTED_SERVO_PROFILE_STOP_TICKS;
+    } else if (p->busy) {
+        p->aborting = p->aborting || stop;
+        if ((p->range < INVERTED_SERVO_STOP_RANGES) && (p->tick > inverted_servo_STOP_LAST[p->range])) {
+            p->range += 1u;
+        }
+        p->stopping = p->aborting && (p->range < INVERTED_SERVO_STOP_RANGES) && (p->tick >= inverted_servo_STOP_FIRST[p->range]);
         if (p->stopping) {
             p->piece = 0u;
             p->piece_tick = 0u;
@@ -683,7 +698,7 @@ static void inverted_servo_go_on(inverted_servo_profile_t *p, bool stop)
             }
         }
     } else {
-        /* it rests, or goes on */
+        /* it rests */
     }
 }
 
@@ -751,7 +766,8 @@ static void inverted_servo_begin(inverted_servo_profile_t *p, const inverted_ser
     p->travel = input->target - input->start;
     p->piece = 0u;
     p->piece_tick = 0u;
-    p->left = INVERTED_SERVO_PROFILE_TICKS;
+    p->tick = 0u;
+    p->range = 0u;
     p->placed = true;
     p->busy = true;
     p->done = false;
@@ -774,7 +790,8 @@ void inverted_servo_profile_init(inverted_servo_profile_t *profile)
     profile->travel = 0.0;
     profile->piece = 0u;
     profile->piece_tick = 0u;
-    profile->left = 0u;
+    profile->tick = 0u;
+    profile->range = 0u;
     profile->refused = 0u;
     profile->executed = false;
     profile->placed = false;

@@ -5,17 +5,18 @@
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.005 s. A move takes 1142 ticks, 5.71 s, however far it goes.
- * At most 386 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
+ * At most 386 ticks, 1.93 s, after an abort the plant rests:
+ * by a stop from the next tick that allows one, or the end of the move.
  * References from -0.1 to 1.1; a move that could need more is refused.
  * Design: 0 to 1, zero-order hold; SHA-256:
- * 5c300dab1ad7b720e506b2838d3149c8f551c827659b4364b99585d10ae2b9f5
+ * 8daf580aa4f76a2621f4847c421a2fd8665c9dd013c7faf723a0035a6736b436
  * Proved with these numbers: the move of the design leaves at most
  * 2e-11 of each state's largest, an abort at any tick of it 2e-11.
  * Another start or travel T adds at most 8.6e-15 R / |T|, R its largest reference.
  * Limits are kept. A stop rests at 0 to 1 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
- * Memory: 232 bytes of state at most, 7876 of tables.
+ * Memory: 240 bytes of state at most, 7880 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -37,12 +38,12 @@ extern "C" {
 #define INVERTED_SERVO_PROFILE_TICK_S (0.005)
 /// Ticks of a move: busy for so long, done at the next.
 #define INVERTED_SERVO_PROFILE_TICKS (1142u)
-/// At most so many ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
+/// At most so many ticks after an abort the plant rests: by a stop from the next tick that allows one, or the end of the move.
 #define INVERTED_SERVO_PROFILE_STOP_TICKS (386u)
 /// States of the plant's model.
 #define INVERTED_SERVO_PROFILE_STATES (5u)
 /// Upper bound of sizeof(inverted_servo_profile_t), in bytes; checked when compiled.
-#define INVERTED_SERVO_PROFILE_RAM (232u)
+#define INVERTED_SERVO_PROFILE_RAM (240u)
 
 /// Status: execute rose while a move or a stop played, which goes on.
 #define INVERTED_SERVO_PROFILE_EXECUTE_IGNORED ((uint32_t)1u << 0)
@@ -90,7 +91,8 @@ typedef struct {
     double travel; ///< of the move
     uint32_t piece; ///< of the move or the stop, that plays next
     uint32_t piece_tick; ///< ticks of it that have played
-    uint32_t left; ///< ticks of the move that have not played
+    uint32_t tick; ///< ticks of the move that have played
+    uint32_t range; ///< of its ticks in which a stop may begin, that is not over
     uint32_t refused; ///< status bits of the last refusal
     bool executed; ///< execute of the tick before
     bool placed; ///< a move was accepted: start no longer matters at rest

@@ -5,17 +5,18 @@
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.005 s. A move takes 58 ticks, 0.29 s, however far it goes.
- * At most 51 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
+ * At most 51 ticks, 0.255 s, after an abort the plant rests:
+ * by a stop from the next tick that allows one, or the end of the move.
  * References from -5 to 5; a move that could need more is refused.
  * Design: 0 to 1, robust of order 1, zero-order hold; SHA-256:
- * eca898c3ac4f7daedf2814ab554507868d843acaab0b832fcc57d06180e6d57c
+ * 505f0487a6836cb95cce4f6a5441406d3cfabea9d7ee6d54c57cf9f86db7e20e
  * Proved with these numbers: the move of the design leaves at most
  * 1e-12 of each state's largest, an abort at any tick of it 1e-12.
  * Another start or travel T adds at most 1.4e-15 R / |T|, R its largest reference.
- * Limits are kept. A stop rests at 0 to 0.377 of the travel.
+ * Limits are kept. A stop rests at 0 to 0.307 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
- * Memory: 216 bytes of state at most, 1540 of tables.
+ * Memory: 224 bytes of state at most, 1544 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -30,6 +31,7 @@ typedef double time_optimal_oscillator_number_t;
 #define TIME_OPTIMAL_OSCILLATOR_MOVE_TERMS (1u)
 #define TIME_OPTIMAL_OSCILLATOR_STOP_PIECES (3u)
 #define TIME_OPTIMAL_OSCILLATOR_STOP_TERMS (10u)
+#define TIME_OPTIMAL_OSCILLATOR_STOP_RANGES (1u)
 
 /* Does not compile when the state is larger than the header says. */
 typedef char time_optimal_oscillator_profile_ram_check[(sizeof(time_optimal_oscillator_profile_t) <= TIME_OPTIMAL_OSCILLATOR_PROFILE_RAM) ? 1 : -1];
@@ -39,10 +41,10 @@ static const time_optimal_oscillator_number_t time_optimal_oscillator_LOWEST = -
 static const time_optimal_oscillator_number_t time_optimal_oscillator_HIGHEST = 5.0; /* limit of the design */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_MAX_TRAVEL = 1125899906842624.0; /* longest travel: no rate is limited */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_LARGEST_POSITION = 1125899906842624.0; /* beyond it sums lose their meaning */
-static const time_optimal_oscillator_number_t time_optimal_oscillator_SHAPE_LOW = -4.68262935681; /* least of the table and of every stop of it */
+static const time_optimal_oscillator_number_t time_optimal_oscillator_SHAPE_LOW = -4.962852872306347; /* least of the table and of every stop of it */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_SHAPE_HIGH = 4.68262935681; /* largest of the same */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_REST_LOW = 0.0; /* least share of the travel at which a stop rests */
-static const time_optimal_oscillator_number_t time_optimal_oscillator_REST_HIGH = 0.37608336920934665; /* largest of the same */
+static const time_optimal_oscillator_number_t time_optimal_oscillator_REST_HIGH = 0.3064175190558011; /* largest of the same */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_FIRST_POSITION = 0.0; /* held before any start was good */
 
 /* Shape of a move by 1: input less what held the plant, from switch to switch. */
@@ -83,85 +85,95 @@ static const time_optimal_oscillator_number_t time_optimal_oscillator_PLANT[25] 
 
 /* Shape of a stop, of the states and the last shape before it, in polynomials of degree 9, highest power first. */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_GAINS[150] = {
-    /* ticks 0 to 18, 0 s, power 9 */
-    6.608225200985536e-08, 3.452793870216483e-08, 4.419565636272261e-08, 1.1429838578096428e-08, 0.0,
-    /* ticks 0 to 18, 0 s, power 8 */
-    1.0197819462758675e-06, 5.487422884171591e-07, 7.023902421181657e-07, 4.019375153203604e-07, 0.0,
-    /* ticks 0 to 18, 0 s, power 7 */
-    -1.9284887045761897e-05, -9.988829997517543e-06, -1.278570216682933e-05, -3.3369114144357183e-06, 0.0,
-    /* ticks 0 to 18, 0 s, power 6 */
-    -0.00020334986708271926, -0.0001129395217234374, -0.00014456258803033633, -8.236753788343346e-05, 0.0,
-    /* ticks 0 to 18, 0 s, power 5 */
-    0.0030987664058323553, 0.0015827119319276992, 0.0020258712727021823, 0.0005365280196792582, 0.0,
-    /* ticks 0 to 18, 0 s, power 4 */
-    0.018180810868037668, 0.010828087426758002, 0.013859951906391594, 0.007825100039811891, 0.0,
-    /* ticks 0 to 18, 0 s, power 3 */
-    -0.2170500302406765, -0.10801266436149448, -0.13825621038266644, -0.0376240316410481, 0.0,
-    /* ticks 0 to 18, 0 s, power 2 */
-    -0.36947173818976287, -0.29178838080131947, -0.3734891274257209, -0.20428210440631253, 0.0,
-    /* ticks 0 to 18, 0 s, power 1 */
-    3.7940457321357832, 1.7691286969976412, 2.264484732156978, 0.6594856051957004, 0.0,
-    /* ticks 0 to 18, 0 s, power 0 */
-    -2.953873527903017, 0.719873529814342, -1.0785618818376417, 0.5673785067021542, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 9 */
-    -9.157819475054771e-09, -5.052989014337448e-09, -6.4678674372510585e-09, -8.113587154119535e-09, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 8 */
-    9.704582255764712e-07, 5.146665054840084e-07, 6.587729341967148e-07, 2.407242848246986e-07, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 7 */
-    2.648310364510271e-06, 1.6044588234472208e-06, 2.053707375799898e-06, 2.5368166933072094e-06, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 6 */
-    -0.00022993503210243252, -0.00012270634519691493, -0.00015706412141443246, -5.585142929463196e-05, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 5 */
-    -0.00037814303439724514, -0.00027538522631216763, -0.0003524930897339842, -0.0004238026875147712, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 4 */
-    0.02610859323014528, 0.01410069431931592, 0.018048888728392987, 0.006081889474646889, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 3 */
-    0.015554249895210502, 0.019674625851302377, 0.02518352108968205, 0.02853652588666638, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 2 */
-    -0.9318633080725232, -0.5195741233975714, -0.6650548779487983, -0.19181502968891564, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 1 */
-    0.35749241658809805, -0.2942040849354287, -0.3765812287173522, -0.33705636149121015, 0.0,
-    /* ticks 19 to 36, 0.095 s, power 0 */
-    1.8190508631334203, 2.4269183840893866, 1.1064555316344051, 0.8858516344093076, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 9 */
-    -4.085054496355516e-09, -2.1797715460986815e-09, -2.7899543373556845e-09, -1.3587720032668897e-09, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 8 */
-    5.5626012648029176e-08, 2.917391549596788e-08, 3.734265406671815e-08, 3.50169458720756e-09, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 7 */
-    2.1992026328552753e-06, 1.1935098251361144e-06, 1.5276922329123044e-06, 7.247411908886581e-07, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 6 */
-    -2.1873222414650908e-05, -1.1246022103226181e-05, -1.4394908394991308e-05, -8.720828249394415e-07, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 5 */
-    -0.0006385294033301315, -0.0003566463254548648, -0.0004565072963192069, -0.0002069849476799034, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 4 */
-    0.004019935191173103, 0.0019799188257907732, 0.0025342960970903897, -3.411629972685784e-05, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 3 */
-    0.07622796239228563, 0.04519979591884656, 0.05785573877604535, 0.02381772548266148, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 2 */
-    -0.207600219246437, -0.08698830799529038, -0.11134503423399002, 0.035892420241806146, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 1 */
-    -1.7922432170564764, -1.2990632677215264, -1.6628009826835455, -0.4796043310847863, 0.0,
-    /* ticks 37 to 50, 0.185 s, power 0 */
-    -0.39711740410298163, 0.32863930035470573, -1.579341695545981, -0.1738239978959645, 0.0
+    /* ticks 0 to 17, 0 s, power 9 */
+    4.868118988348579e-08, 2.8384363535947913e-08, 3.6331998510413124e-08, 1.3031776902705523e-08, 0.0,
+    /* ticks 0 to 17, 0 s, power 8 */
+    8.439031738684486e-07, 5.300508260356273e-07, 6.784648224777957e-07, 4.0733007746546625e-07, 0.0,
+    /* ticks 0 to 17, 0 s, power 7 */
+    -1.5863066515492506e-05, -9.182509788595253e-06, -1.1753612618646856e-05, -4.230047160480591e-06, 0.0,
+    /* ticks 0 to 17, 0 s, power 6 */
+    -0.00019033265714253, -0.00012276920594675176, -0.0001571445830936292, -9.421915822083793e-05, 0.0,
+    /* ticks 0 to 17, 0 s, power 5 */
+    0.0028421563483388194, 0.001626084460409583, 0.00208138810944538, 0.0007531778454159308, 0.0,
+    /* ticks 0 to 17, 0 s, power 4 */
+    0.019501521075111064, 0.01332178431861075, 0.017051883927450127, 0.010195566768867468, 0.0,
+    /* ticks 0 to 17, 0 s, power 3 */
+    -0.2209754745584459, -0.12367788487838603, -0.1583076926443904, -0.05788187196100125, 0.0,
+    /* ticks 0 to 17, 0 s, power 2 */
+    -0.49096066068995464, -0.41538383862752026, -0.5316913134431334, -0.3150351833619886, 0.0,
+    /* ticks 0 to 17, 0 s, power 1 */
+    4.226939988289549, 2.2357333466211475, 2.861738683675079, 1.07516300625625, 0.0,
+    /* ticks 0 to 17, 0 s, power 0 */
+    -3.171434597248543, 0.6161552454894601, -1.211321285773496, 0.5272805244671482, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 9 */
+    -1.1608623259116683e-08, -8.238663794215584e-09, -1.0545487354427382e-08, -1.1193343031091916e-08, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 8 */
+    1.2275136889169985e-06, 7.388916602404999e-07, 9.457811579099283e-07, 4.262096007348851e-07, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 7 */
+    3.4471174544701486e-06, 2.6376733594799037e-06, 3.376221891250696e-06, 3.5393351142620155e-06, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 6 */
+    -0.0002905588690152567, -0.00017574533184362814, -0.00022495402437454286, -9.974147228340572e-05, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 5 */
+    -0.000521312910843051, -0.0004591100185933509, -0.0005876608237861385, -0.0006031208078746488, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 4 */
+    0.03293051945617875, 0.02010390139669232, 0.02573299378746699, 0.011052807430284086, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 3 */
+    0.026692646585305214, 0.033758709727935904, 0.04321114845175093, 0.04243507780656409, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 2 */
+    -1.169347292551141, -0.7319690047633446, -0.9369203260969962, -0.36800239968858794, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 1 */
+    0.14409760525107143, -0.5541328041534829, -0.7092899893164594, -0.6008673372792156, 0.0,
+    /* ticks 18 to 35, 0.09 s, power 0 */
+    1.9729747983374655, 2.6379537109077575, 1.3765807499619225, 1.0696506519067248, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 9 */
+    -4.6420839219572985e-10, -2.8693190586547573e-10, -3.6735455351794965e-10, -2.0471402938939248e-10, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 8 */
+    9.91167645942639e-09, 5.7203576187043246e-09, 7.322145570826683e-09, 2.0063370933003625e-09, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 7 */
+    4.2324969528965916e-07, 2.654720728778428e-07, 3.398044253263914e-07, 1.865020623051355e-07, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 6 */
+    -6.580845844410882e-06, -3.738794672123863e-06, -4.785657344840491e-06, -1.1997116216546174e-06, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 5 */
+    -0.00020879503154788159, -0.00013419616893231134, -0.0001717710963636508, -9.185011332780273e-05, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 4 */
+    0.002046793098549906, 0.0011243943027173537, 0.0014392247075728135, 0.0002871303187442783, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 3 */
+    0.04261302086836284, 0.028798285357743997, 0.036861805257953704, 0.018678573538685333, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 2 */
+    -0.17947657547064705, -0.08719939458023615, -0.11161522506271977, 0.00030763901389568453, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 1 */
+    -1.767516627463873, -1.406764468714281, -1.8006585199542837, -0.7646506325336371, 0.0,
+    /* ticks 36 to 46, 0.18 s, power 0 */
+    -0.7871399730462518, -0.11035714896731251, -2.141257150678162, -0.7329969968931819, 0.0
 };
 
 /* Ticks of each piece. */
 static const uint16_t time_optimal_oscillator_STOP_LENGTHS[3] = {
-    19u, /* ticks 0 to 18, 0 s */
-    18u, /* ticks 19 to 36, 0.095 s */
-    14u /* ticks 37 to 50, 0.185 s */
+    18u, /* ticks 0 to 17, 0 s */
+    18u, /* ticks 18 to 35, 0.09 s */
+    11u /* ticks 36 to 46, 0.18 s */
 };
 
 /* Step of a piece's own variable, which goes from -1 to 1: 2 over one tick less than it has. */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_STEPS[3] = {
-    0.1111111111111111, /* ticks 0 to 18, 0 s */
-    0.11764705882352941, /* ticks 19 to 36, 0.095 s */
-    0.15384615384615385 /* ticks 37 to 50, 0.185 s */
+    0.11764705882352941, /* ticks 0 to 17, 0 s */
+    0.11764705882352941, /* ticks 18 to 35, 0.09 s */
+    0.2 /* ticks 36 to 46, 0.18 s */
 };
 
 /* Where a stop comes to rest, of the same. */
 static const time_optimal_oscillator_number_t time_optimal_oscillator_STOP_REST[5] = {
-    0.38872426652052533, 1.2935796138262345, -0.3442180943024236, 1.1120251147261107, 0.0 /* share of the travel */
+    0.30185601663788775, 1.2171602063495353, -0.4420349358725983, 1.0508205830004704, 0.0 /* share of the travel */
+};
+
+/* First tick of the move in each range in which a stop may begin. */
+static const uint16_t time_optimal_oscillator_STOP_FIRST[1] = {
+    1u /* 0.005 s */
+};
+
+/* Last tick of the move in each range in which a stop may begin. */
+static const uint16_t time_optimal_oscillator_STOP_LAST[1] = {
+    6u /* 0.03 s */
 };
 
 /* Sum of the products of a table's row with the states and the shape. */
@@ -203,7 +215,7 @@ static time_optimal_oscillator_number_t time_optimal_oscillator_next_of_move(tim
     const time_optimal_oscillator_number_t *term = &time_optimal_oscillator_MOVE_SHAPES[p->piece * TIME_OPTIMAL_OSCILLATOR_MOVE_TERMS];
     const time_optimal_oscillator_number_t shape = *term;
     time_optimal_oscillator_pass(p, time_optimal_oscillator_MOVE_LENGTHS[p->piece]);
-    p->left -= 1u;
+    p->tick += 1u;
     return shape;
 }
 
@@ -238,7 +250,7 @@ static time_optimal_oscillator_number_t time_optimal_oscillator_advance(time_opt
     return results[TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES];
 }
 
-/* End what is over; an abort begins a stop, unless the move is over sooner. */
+/* End what is over; after an abort begin a stop in the first tick that allows one. */
 static void time_optimal_oscillator_go_on(time_optimal_oscillator_profile_t *p, bool stop)
 {
     uint32_t column;
@@ -256,9 +268,12 @@ static void time_optimal_oscillator_go_on(time_optimal_oscillator_profile_t *p, 
         p->aborted = p->aborting;
         p->aborting = false;
         p->position = p->target;
-    } else if (p->busy && stop && (!p->aborting)) {
-        p->aborting = true;
-        p->stopping = p->left > TIME_OPTIMAL_OSCILLATOR_PROFILE_STOP_TICKS;
+    } else if (p->busy) {
+        p->aborting = p->aborting || stop;
+        if ((p->range < TIME_OPTIMAL_OSCILLATOR_STOP_RANGES) && (p->tick > time_optimal_oscillator_STOP_LAST[p->range])) {
+            p->range += 1u;
+        }
+        p->stopping = p->aborting && (p->range < TIME_OPTIMAL_OSCILLATOR_STOP_RANGES) && (p->tick >= time_optimal_oscillator_STOP_FIRST[p->range]);
         if (p->stopping) {
             p->piece = 0u;
             p->piece_tick = 0u;
@@ -267,7 +282,7 @@ static void time_optimal_oscillator_go_on(time_optimal_oscillator_profile_t *p, 
             }
         }
     } else {
-        /* it rests, or goes on */
+        /* it rests */
     }
 }
 
@@ -335,7 +350,8 @@ static void time_optimal_oscillator_begin(time_optimal_oscillator_profile_t *p, 
     p->travel = input->target - input->start;
     p->piece = 0u;
     p->piece_tick = 0u;
-    p->left = TIME_OPTIMAL_OSCILLATOR_PROFILE_TICKS;
+    p->tick = 0u;
+    p->range = 0u;
     p->placed = true;
     p->busy = true;
     p->done = false;
@@ -358,7 +374,8 @@ void time_optimal_oscillator_profile_init(time_optimal_oscillator_profile_t *pro
     profile->travel = 0.0;
     profile->piece = 0u;
     profile->piece_tick = 0u;
-    profile->left = 0u;
+    profile->tick = 0u;
+    profile->range = 0u;
     profile->refused = 0u;
     profile->executed = false;
     profile->placed = false;

@@ -5,17 +5,18 @@
  * This file is yours: use, change and ship it as you like.
  *
  * Tick 0.005 s. A move takes 58 ticks, 0.29 s, however far it goes.
- * At most 51 ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
+ * At most 51 ticks, 0.255 s, after an abort the plant rests:
+ * by a stop from the next tick that allows one, or the end of the move.
  * References from -5 to 5; a move that could need more is refused.
  * Design: 0 to 1, robust of order 1, zero-order hold; SHA-256:
- * eca898c3ac4f7daedf2814ab554507868d843acaab0b832fcc57d06180e6d57c
+ * 505f0487a6836cb95cce4f6a5441406d3cfabea9d7ee6d54c57cf9f86db7e20e
  * Proved with these numbers: the move of the design leaves at most
  * 1e-12 of each state's largest, an abort at any tick of it 1e-12.
  * Another start or travel T adds at most 1.4e-15 R / |T|, R its largest reference.
- * Limits are kept. A stop rests at 0 to 0.377 of the travel.
+ * Limits are kept. A stop rests at 0 to 0.307 of the travel.
  * Each move is that of the design, to scale: reference = hold_ratio * start + travel * shape,
  * position = start + travel * position of a model of the plant, with travel = target - start.
- * Memory: 216 bytes of state at most, 1540 of tables.
+ * Memory: 224 bytes of state at most, 1544 of tables.
  *
  * Call it once per tick. The plant rests when a move starts: what swings then swings on.
  * NOT A SAFETY FUNCTION: limit switches, emergency stop and brakes must work without this block.
@@ -37,12 +38,12 @@ extern "C" {
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_TICK_S (0.005)
 /// Ticks of a move: busy for so long, done at the next.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_TICKS (58u)
-/// At most so many ticks after an abort the plant rests: by a stop, or by the end of the move where that is sooner.
+/// At most so many ticks after an abort the plant rests: by a stop from the next tick that allows one, or the end of the move.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_STOP_TICKS (51u)
 /// States of the plant's model.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_STATES (4u)
 /// Upper bound of sizeof(time_optimal_oscillator_profile_t), in bytes; checked when compiled.
-#define TIME_OPTIMAL_OSCILLATOR_PROFILE_RAM (216u)
+#define TIME_OPTIMAL_OSCILLATOR_PROFILE_RAM (224u)
 
 /// Status: execute rose while a move or a stop played, which goes on.
 #define TIME_OPTIMAL_OSCILLATOR_PROFILE_EXECUTE_IGNORED ((uint32_t)1u << 0)
@@ -90,7 +91,8 @@ typedef struct {
     double travel; ///< of the move
     uint32_t piece; ///< of the move or the stop, that plays next
     uint32_t piece_tick; ///< ticks of it that have played
-    uint32_t left; ///< ticks of the move that have not played
+    uint32_t tick; ///< ticks of the move that have played
+    uint32_t range; ///< of its ticks in which a stop may begin, that is not over
     uint32_t refused; ///< status bits of the last refusal
     bool executed; ///< execute of the tick before
     bool placed; ///< a move was accepted: start no longer matters at rest
