@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swayless.design.optimal.command import Command
 from swayless.design.optimal.program import Program
@@ -67,15 +68,11 @@ def finished(
     proved, fewer : float
         Lower bounds of the utilisation, of this length and of one tick less.
     """
-    task = program.task
-    low, high = task.limits
-    shift = program.centre + task.initial_input
-    values = np.clip(polished(program, w) + shift, low, high)
-    settled = values - shift
-    error = final_error(program, settled)
-    used = program.utilisation(settled)
+    task, inside = program.task, polished(program, w)
+    error, used = final_error(program, inside), program.utilisation(inside)
     if error > FINAL_STATE_TOLERANCE or used > 1.0 + LIMIT_TOLERANCE:
         return None
+    values = np.clip(inside + program.centre + task.initial_input, *task.limits)
     command = Command(task.tick_s, values, task.held_input, initial_value=task.initial_input)
     return OptimalCommand(command, min(used, 1.0), error, proved, fewer)
 
@@ -87,19 +84,29 @@ def final_error(program: Program, w: FloatArray) -> float:
 
 
 def polished(program: Program, w: FloatArray) -> FloatArray:
-    """Solve the conditions at the end again on the inputs that are not saturated, by the least change.
+    """Solve the conditions at the end again by the least change, within the limits of the input.
+
+    On the inputs that are not saturated; or on all, where that takes less of the limits: a mode that dies out
+    within a few ticks is brought to rest by the last inputs alone, which may all be saturated.
+    """
+    unsaturated = np.abs(w) < np.abs(w).max() - _SATURATED * program.half
+    tried = [_corrected(program, w, free) for free in (unsaturated, np.ones(w.size, dtype=bool))]
+    return min(
+        tried,
+        key=lambda each: (final_error(program, each) > FINAL_STATE_TOLERANCE, program.utilisation(each)),
+    )
+
+
+def _corrected(program: Program, w: FloatArray, free: NDArray[np.bool_]) -> FloatArray:
+    """Solve the conditions at the end again on some inputs, and keep all within their limits.
 
     References
     ----------
     Golub and Van Loan (2013), "Matrix computations", section 5.6: iterative refinement.
     """
     rows, values, _ = program.orthonormal
-    most = np.abs(w).max()
-    free = np.abs(w) < most - _SATURATED * program.half
-    if free.sum() < len(rows):
-        free = np.ones(w.size, dtype=bool)
     inverse = np.linalg.pinv(rows[:, free])
     for _ in range(_ROUNDS):
         w = w.copy()
         w[free] += inverse @ (values - rows @ w)
-    return w
+    return np.clip(w, -program.half, program.half)

@@ -93,12 +93,17 @@ def _try(task: MoveTask, ticks: int) -> _Tried:
 
 def _not_resolved(program: Program, w: FloatArray, share: float) -> str:
     """Say that limits leave enough room, but rounding does not reach the end."""
-    missed = final_error(program, polished(program, w))
+    nearest = polished(program, w)
+    missed, used = final_error(program, nearest), program.utilisation(nearest)
+    fails = (
+        f"misses rest by {missed:.1g} of the largest state, and {FINAL_STATE_TOLERANCE:g} is promised"
+        if missed > FINAL_STATE_TOLERANCE
+        else f"takes {used:.4g} of them once it is corrected to rest at the end"
+    )
     return (
         f"{program.ticks} ticks of {program.task.tick_s:g} s take {share:.4g} of the limits, but the best"
-        f" command misses rest by {missed:.1g} of the largest state, and {FINAL_STATE_TOLERANCE:g} is"
-        " promised: what is asked of the end can hardly be told apart; less robustness or a coarser tick is"
-        " needed"
+        f" command {fails}: what is asked of the end can hardly be told apart; less robustness or a coarser"
+        " tick is needed"
     )
 
 

@@ -167,6 +167,20 @@ def test_the_transform_and_its_derivatives_vanish_at_the_poles_to_1e_9(order):
     assert ours[order + 1] > 0.1
 
 
+def test_a_mode_that_dies_out_in_a_tick_is_brought_to_rest_by_last_inputs_that_are_saturated():
+    bottom = [4.002035059235815e-06, 0.0001202891677754509, 0.0043532280029896205, 0.02217294331465508]
+    plant = LinearPlant.from_transfer_function(
+        [2.479], [*bottom, 0.6675590581003976, 0.03327012010513358, 1.0]
+    )
+    half = 6.694336425978216
+    found = time_optimal(
+        MoveTask(plant, 0.2689, (-half, half), 2.651, rate_limit_per_s=8.1723, robustness=Robustness(2))
+    )
+    # As a program of 60 digits finds it.
+    assert found.ticks == 25
+    assert found.fewer_utilisation_ratio > 1.3
+
+
 def test_a_damped_mode_beside_a_rigid_body_is_robust_too():
     task = MoveTask(TWO_MASSES, 0.02, (-4.0, 4.0), 1.0, robustness=Robustness(1))
     found = time_optimal(task)
