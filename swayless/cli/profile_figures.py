@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -107,6 +108,41 @@ def check_places(paths: Sequence[Path], *, page: bool = False) -> None:
     ]
     if wrong or absent:
         raise FileError([*wrong, *absent])
+
+
+def check_apart(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+    """Refuse to write over what is read, or two things to one place, before anything is computed.
+
+    Parameters
+    ----------
+    outputs, inputs : sequence of Path
+        What is written, and what is read; a file that is corrected in its place is left out of the inputs.
+
+    Raises
+    ------
+    FileError
+        Naming each output.
+
+    Examples
+    --------
+    >>> check_apart([Path("a.csv"), Path("./b.csv")], [Path("b.csv")])
+    Traceback (most recent call last):
+    swayless.errors.FileError: b.csv: would be written over, and it is read: choose another output
+    """
+    read = {os.path.realpath(path) for path in inputs}
+    places = [os.path.realpath(path) for path in outputs]
+    problems = [
+        f"{path}: would be written over, and it is read: choose another output"
+        for path, place in zip(outputs, places, strict=True)
+        if place in read
+    ]
+    problems += [
+        f"{path}: would be written twice: choose another output"
+        for index, path in enumerate(outputs)
+        if places[index] in places[:index]
+    ]
+    if problems:
+        raise FileError(problems)
 
 
 def write_by_suffix(

@@ -39,12 +39,13 @@ def invert(file: FileArgument, output: OutputOption = None, json: JsonOption = F
     swayless profile invert servo.toml -o move.csv -o move.svg
     """
     from swayless.cli.console import print_json
-    from swayless.cli.profile_figures import check_places, write_by_suffix
+    from swayless.cli.profile_figures import check_apart, check_places, write_by_suffix
     from swayless.cli.profile_inversion_output import document, draw, print_found, trajectory_text
     from swayless.machine.inversion_file import load_inversion
 
     outputs = output or []
     check_places(outputs)
+    check_apart(outputs, [file])
     request = load_inversion(file)
     write_by_suffix(outputs, lambda: trajectory_text(request), lambda: draw(request))
     if json:

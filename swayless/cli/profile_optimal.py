@@ -110,7 +110,7 @@ def optimal(
     """
     from swayless.cli.console import print_json
     from swayless.cli.option_table import option_table
-    from swayless.cli.profile_figures import check_places, draw_move, write_by_suffix, write_page
+    from swayless.cli.profile_figures import check_apart, check_places, draw_move, write_by_suffix, write_page
     from swayless.cli.profile_output import document, print_found, trajectory_text
     from swayless.cli.profile_work import found_for
     from swayless.machine.profile_file import load_profile
@@ -134,6 +134,7 @@ def optimal(
     outputs = output or []
     check_places(outputs, page=True)
     request = load_profile(file, option_table(given, []).raw, axis=axis)
+    check_apart(outputs, request.files)
     found = found_for(request)
     write_by_suffix(
         outputs,

@@ -102,7 +102,7 @@ def simulate(
     ratios, closed = _read(off, feedback)
     options = {"limit": limit, "tick": tick, "target": target, "robust": robust, "ei": ei, "relax": relax}
     given = {**options, "rope_length": rope_length, "frequency": frequency}
-    move = _move(file, {key: value for key, value in given.items() if value is not None}, axis)
+    move = _move(file, {key: value for key, value in given.items() if value is not None}, axis, outputs)
     runs = simulated(move, _actual(move.plant, ratios), [NONE] if closed is None else [NONE, closed])
     write_by_suffix(outputs, lambda: loop_table(move, runs), lambda: draw_runs(move, title(move), runs))
     if json:
@@ -139,17 +139,20 @@ def _actual(plant: LinearPlant, ratios: tuple[float, ...] | None) -> list[float]
     return sorted({1.0, *(ratios or (USUAL_OFF if plant.can_be_off else ()))})
 
 
-def _move(file: Path, options: Mapping[str, str], axis: str | None) -> Move:
-    """Find the command of a file."""
+def _move(file: Path, options: Mapping[str, str], axis: str | None, outputs: Sequence[Path]) -> Move:
+    """Find the command of a file, unless an output is what it was read from."""
     from swayless.cli.option_table import option_table
+    from swayless.cli.profile_figures import check_apart
     from swayless.cli.profile_loop import Move
     from swayless.cli.profile_work import found_for
     from swayless.machine.inversion import asks_for_inversion
     from swayless.machine.profile_file import load_profile, toml_document
 
     if asks_for_inversion(toml_document(file)):
+        check_apart(outputs, [file])
         return _inverted(file, [*options, *([] if axis is None else ["axis"])])
     request = load_profile(file, option_table(options, []).raw, axis=axis)
+    check_apart(outputs, request.files)
     task = request.task
     command = found_for(request).command
     return Move(request.name, task.plant, command, task.limits, task.start, task.target)

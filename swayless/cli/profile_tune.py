@@ -13,7 +13,7 @@ from swayless.cli.options import JsonOption
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from swayless.design.inversion import MeasuredMove, Step
+    from swayless.design.inversion import Doubt, MeasuredMove, Step
     from swayless.machine.inversion_file import InversionRequest
     from swayless.plant.elastic_drive import ElasticDrive
 
@@ -87,30 +87,33 @@ def tune(
     swayless profile tune measured.csv --machine servo.toml --step paper -o next.toml
     """
     from swayless.cli.console import print_json
-    from swayless.cli.profile_figures import check_places, write_by_suffix
+    from swayless.cli.profile_figures import check_apart, check_places, write_by_suffix
     from swayless.cli.profile_inversion_output import draw, trajectory_text
     from swayless.machine.inversion_file import load_inversion
     from swayless.machine.inversion_record import read_move
     from swayless.machine.inversion_text import rounded, text_with_drive, with_drive
     from swayless.machine.writing import write_text_atomically
 
-    commands = command or []
+    commands, target = command or [], output or machine
     check_places(commands)
+    check_apart([target, *commands], records)
+    check_apart(commands, [machine])
     request = load_inversion(machine)
     drive = _drive(request)
     moves = [read_move(path, request, column=column) for path in records]
-    taken = _step(step, request, moves)
+    doubt, taken = _checked(records, request, moves), _step(step, request, moves)
     next_drive = rounded(taken.drive)
     following = with_drive(request, next_drive)
     text = text_with_drive(machine, next_drive)
     facts = _facts(step, request, moves, taken)
-    table, target = trajectory_text(following), output or machine
+    table = trajectory_text(following)
     write_text_atomically(target, text)
     write_by_suffix(commands, lambda: table, lambda: draw(following))
     if json:
-        print_json(_document(facts, drive, following))
+        doubted = None if doubt is None else {doubt.what: doubt.size}
+        print_json({**_document(facts, drive, following), "doubt": doubted})
         return
-    _print_tuned(facts, drive, next_drive)
+    _print_tuned(facts, drive, next_drive, doubt)
     for path in (target, *commands):
         typer.echo(f"{path}: written")
 
@@ -122,6 +125,19 @@ def _drive(request: InversionRequest) -> ElasticDrive:
     if request.drive is None:
         raise FileError([f"{request.file}: [drive]: missing: a [plant] has no parameters to correct"])
     return request.drive
+
+
+def _checked(
+    records: Sequence[Path], request: InversionRequest, moves: Sequence[MeasuredMove]
+) -> Doubt | None:
+    """Refuse records that no drive explains, and say what is doubtful in others."""
+    from swayless.design.inversion import check_explained
+    from swayless.errors import DesignError
+
+    try:
+        return check_explained(_drive(request), request.motion, moves)
+    except DesignError as error:
+        raise DesignError(f"{', '.join(map(str, records))}: {error}") from error
 
 
 def _step(step: StepName, request: InversionRequest, moves: Sequence[MeasuredMove]) -> Step:
@@ -187,7 +203,9 @@ def _document(facts: dict[str, Any], before: ElasticDrive, following: InversionR
     }
 
 
-def _print_tuned(facts: dict[str, Any], before: ElasticDrive, after: ElasticDrive) -> None:
+def _print_tuned(
+    facts: dict[str, Any], before: ElasticDrive, after: ElasticDrive, doubt: Doubt | None
+) -> None:
     """Print what was measured, and what was corrected."""
     from swayless.cli.console import counted, print_line, print_table
 
@@ -201,7 +219,12 @@ def _print_tuned(facts: dict[str, Any], before: ElasticDrive, after: ElasticDriv
     rows = [(name, f"{old[name]:.4g}", f"{new[name]:.4g}") for name in old]
     print_table(f"{facts['step']} step", ("parameter", "before", "after"), rows)
     print_line(f"note: {UNSEEN}")
-    if facts["step"] == StepName.scaled and facts["expected_cost"] > 0.9 * facts["cost"]:
+    if doubt is not None:
+        print_line(
+            f"note: {doubt} in the record would explain most of what stays unexplained: if it is in the"
+            " sensor, correct the record, as parameters are bent by it"
+        )
+    elif facts["step"] == StepName.scaled and facts["expected_cost"] > 0.9 * facts["cost"]:
         print_line(
             "note: no parameters explain the rest: noise, or what the model does not know; tuning is done"
         )

@@ -45,6 +45,8 @@ class ProfileRequest:
         How near.
     number : {"double", "float"}
         Number type of the block that plays it; int32 has no use for tables of fractions.
+    files : tuple of Path
+        What it was read from.
     """
 
     name: str
@@ -53,6 +55,7 @@ class ProfileRequest:
     wanted: FloatArray | None = None
     tolerance: float | None = None
     number: str = "double"
+    files: tuple[Path, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -185,6 +188,8 @@ def _read_move(
         table.place("track").problem("a trajectory and its tolerance belong together")
     if "track" in table.raw and "relax" in table.raw:
         table.place("relax").problem("a trajectory has its length: leave track or relax out")
+    if target is not None and target == (start or 0.0):
+        table.place("target").problem(f"{target:g}: must differ from the start")
     if table.report.problems or plant is None or tick_s is None or limits is None or target is None:
         return None
     # A file's names are beside it, an option's where the command is given.
@@ -194,7 +199,8 @@ def _read_move(
         task = MoveTask(plant, tick_s, limits, target, start or 0.0, rate, Robustness(order or 0, split))
     except DesignError as error:
         raise DesignError(f"{path}: {error}" if path else str(error)) from error
-    return ProfileRequest(name, task, relax, wanted, tolerance, kind or "double")
+    files = (*([] if path is None else [path]), *([] if track is None else [beside / track]))
+    return ProfileRequest(name, task, relax, wanted, tolerance, kind or "double", files)
 
 
 def _limits(value: object, place: Place) -> tuple[float, float] | None:

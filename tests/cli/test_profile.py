@@ -310,6 +310,23 @@ def test_the_page_of_the_paper_says_how_to_play_figure_12(run, tmp_path):
     assert head.startswith("tick,time_s,command,reference,input_0.9_feedforward,output_0.9_feedforward,")
 
 
+@pytest.mark.parametrize("command", ["optimal", "simulate"])
+def test_the_trajectory_to_follow_is_never_written_over(run, tmp_path, command):
+    plant = "[plant]\nnumerator = [1]\ndenominator = [1, 0, 0]\n[move]\ntick = 0.1\nlimit = 9\ntarget = 1\n"
+    (tmp_path / "move.toml").write_text(f'{plant}track = "wanted.csv"\ntolerance = 0.5\n')
+    (tmp_path / "wanted.csv").write_text("0.3\n0.6\n0.9\n1\n1\n")
+    done = run("profile", command, "move.toml", "-o", "wanted.csv")
+    assert (done.code, done.out) == (2, "")
+    assert "wanted.csv: would be written over, and it is read: choose another output" in done.err
+    assert (tmp_path / "wanted.csv").read_text() == "0.3\n0.6\n0.9\n1\n1\n"
+
+
+def test_a_target_where_the_move_starts_is_named_by_its_option(run):
+    done = run("profile", "optimal", EXAMPLE, "--target", "0")
+    assert (done.code, done.out) == (2, "")
+    assert "--target: 0: must differ from the start" in done.err
+
+
 def test_a_move_is_written_and_drawn_at_once(run, tmp_path):
     done = run("profile", "optimal", EXAMPLE, "-o", "move.csv", "-o", "move.pdf", "-o", "move.html")
     assert done.out.endswith("move.csv: written\nmove.pdf: written\nmove.html: written\n")

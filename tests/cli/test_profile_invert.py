@@ -45,6 +45,10 @@ def record(machine, path, *, every=1, resolution=1e-4, head="time_s,position,com
     path.write_text("\n".join([head, *rows]) + "\n")
 
 
+def write_record(path, time_s, position):
+    np.savetxt(path, np.column_stack([time_s, position]), "%.6f", ",", header="time_s,position", comments="")
+
+
 @pytest.fixture
 def servo(tmp_path):
     """The first guess of the page, and what the machine does under its command."""
@@ -58,7 +62,7 @@ def test_the_command_of_the_example_moves_an_independent_model_along_the_polynom
     (tmp_path / "servo.toml").write_text(example_text("inverted-servo"))
     document = found(run("profile", "invert", "servo.toml", "--json"))
     assert (document["tick_s"], document["hold"]) == (0.005, "zero-order")
-    assert document["final_value"] == pytest.approx(1.0, rel=1e-14)
+    assert document["final_value"] == 1.0
     command = Command(document["tick_s"], document["command"], document["final_value"])
     output = output_at_ticks(true_plant(), command, ticks=1500)
     share = np.clip(0.005 * np.arange(1501) / 2.0, 0.0, 1.0)
@@ -207,7 +211,7 @@ DRIVES = {
         "limit = 1.5 ",
         "[move] limit = 1.5: must be the lowest and the highest command",
     ),
-    "target = 1.0": ("target = 0.0", "start = 0.0, target = 0.0: must be finite and differ"),
+    "target = 1.0": ("target = 0.0", "[move] target = 0.0: must be finite, and differ from start = 0.0"),
     "truncation = 1e-9": (
         "truncation = 1.0",
         "[move] truncation = 1.0: must be at least 1e-12 and at most 0.1",
@@ -284,6 +288,60 @@ def test_garbage_in_a_record_is_refused_with_its_line(run, servo, tmp_path, what
     assert (done.code, done.out) == (2, "")
     assert f"measured.csv: {message}" in done.err or message in done.err
     assert servo.read_text() == before
+
+
+NONSENSE = {
+    "in another unit": (lambda position: 1000.0 * position, None),
+    "with another sign": (np.negative, None),
+    "with another sign, up to the end of the motion": (np.negative, 401),
+    "of a dead sensor, up to the end of the motion": (np.zeros_like, 401),
+}
+
+
+@pytest.mark.parametrize("what", NONSENSE)
+def test_a_record_that_no_drive_explains_is_refused_and_nothing_is_written(run, servo, tmp_path, what):
+    spoil, rows = NONSENSE[what]
+    before = servo.read_text()
+    time_s, position, _ = np.loadtxt(tmp_path / "measured.csv", delimiter=",", skiprows=1)[:rows].T
+    write_record(tmp_path / "spoilt.csv", time_s, spoil(position))
+    done = run("profile", "tune", "spoilt.csv", "--machine", "servo.toml", "--command", "next.csv")
+    assert (done.code, done.out) == (2, "")
+    assert "spoilt.csv: no drive explains the motion: its cost is" in done.err
+    assert servo.read_text() == before
+    assert not (tmp_path / "next.csv").exists()
+
+
+def test_a_sensor_that_lags_or_scales_is_suspected_by_its_size(run, servo, tmp_path):
+    time_s, position, _ = np.loadtxt(tmp_path / "measured.csv", delimiter=",", skiprows=1).T
+    write_record(tmp_path / "late.csv", time_s, np.interp(time_s - 0.1, time_s, position))
+    done = run("profile", "tune", "late.csv", "--machine", "servo.toml", "-o", "next.toml")
+    (lag,) = re.findall(
+        r"note: a lag of ([0-9.]+) s in the record would explain most of what stays", done.out
+    )
+    # To a fiftieth: a step of the fit is a straight line.
+    assert float(lag) == pytest.approx(0.1, rel=0.02)
+    write_record(tmp_path / "wide.csv", time_s, 1.05 * position)
+    document = found(run("profile", "tune", "wide.csv", "--machine", "servo.toml", "-o", "n.toml", "--json"))
+    # To a hundredth: the drive explains a part of the scale.
+    assert document["doubt"] == {"scale_ratio": pytest.approx(1.05, abs=0.01)}
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--command", "measured.csv"), "measured.csv: would be written over, and it is read"),
+        (("-o", "measured.csv"), "measured.csv: would be written over, and it is read"),
+        (("-o", "a.csv", "--command", "../{here}/a.csv"), "a.csv: would be written twice"),
+    ],
+)
+def test_what_is_read_is_never_written_over(run, servo, tmp_path, options, message):
+    before = (tmp_path / "measured.csv").read_text()
+    given = [option.format(here=tmp_path.name) for option in options]
+    done = run("profile", "tune", "measured.csv", "--machine", "servo.toml", *given)
+    assert (done.code, done.out) == (2, "")
+    assert message in done.err
+    assert (tmp_path / "measured.csv").read_text() == before
+    assert servo.read_text() == GUESS
 
 
 def test_samples_too_far_apart_and_unknown_columns_are_refused(run, servo, tmp_path):

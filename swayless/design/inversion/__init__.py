@@ -4,6 +4,7 @@ Not for: commands within limits (`swayless.design.optimal`), and plants with zer
 """
 
 from swayless.design.inversion.closed_form import ClosedForm, closed_form
+from swayless.design.inversion.doubt import Doubt, check_explained
 from swayless.design.inversion.inverse import DEFAULT_TRUNCATION, InvertedCommand, invert
 from swayless.design.inversion.misfit import MeasuredMove, Misfit, cost
 from swayless.design.inversion.motion import PolynomialMotion
@@ -20,6 +21,7 @@ from swayless.design.inversion.tuning import (
 __all__ = [
     "ClosedForm",
     "DEFAULT_TRUNCATION",
+    "Doubt",
     "InvertedCommand",
     "MeasuredMove",
     "Misfit",
@@ -28,6 +30,7 @@ __all__ = [
     "PAPER_WEIGHTS",
     "PolynomialMotion",
     "Step",
+    "check_explained",
     "closed_form",
     "cost",
     "gradient",

@@ -115,14 +115,15 @@ def invert(
     top = np.trim_zeros(numerator, "f")
     _check_smoothness(motion, plant.order + 1 - top.size)
     _check_zeros(np.roots(top).astype(np.complex128), motion.duration_s)
-    initial, final = (plant.equilibrium(each)[1] for each in (motion.start, motion.target))
+    # From the coefficients: of a plant with gain 1 it is the position itself, to the last digit.
+    initial, final = (each * denominator[-1] / numerator[-1] for each in (motion.start, motion.target))
     response = motion_response(denominator, numerator, motion)
     change = float(np.abs(response.on_grid(0.0, tick_s, moving + 1)).max())
     after, bound = _post_action(response, tick_s, LARGEST_TICKS - moving, truncation_ratio * change)
     ticks = moving + after
     held = response.averages(tick_s, ticks)
     corrected = _at_rest(plant, held, motion.travel, tick_s)
-    command = Command(tick_s, initial + corrected, final, initial_value=initial)
+    command = Command(tick_s, initial + corrected, float(final), initial_value=float(initial))
     output = output_at_ticks(plant, command, start=motion.start)
     return InvertedCommand(
         plant,

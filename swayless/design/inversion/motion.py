@@ -58,7 +58,9 @@ class PolynomialMotion:
         if not (math.isfinite(self.duration_s) and self.duration_s > 0.0):
             raise DesignError(f"duration_s = {self.duration_s!r}: must be finite and > 0")
         if not (math.isfinite(self.start) and math.isfinite(self.target)) or self.start == self.target:
-            raise DesignError(f"start = {self.start!r}, target = {self.target!r}: must be finite and differ")
+            raise DesignError(
+                f"target = {self.target!r}: must be finite, and differ from start = {self.start!r}"
+            )
         if self.order not in range(3, LARGEST_ORDER + 1, 2):
             raise DesignError(f"order = {self.order!r}: must be an odd number from 3 to {LARGEST_ORDER}")
 

@@ -88,7 +88,8 @@ def output_with_feedback(
     fastest = float(np.abs(np.linalg.eigvals(closed)).max())
     if fastest > 1.0 + 1e-9:
         raise DesignError(
-            f"feedback {feedback}: unstable, grows {fastest:.6g} times a tick: other gains are needed"
+            f"feedback P = {feedback.proportional:g}, D = {feedback.derivative_s:g} s: unstable, grows"
+            f" {fastest:.6g} times a tick: other gains are needed"
         )
     inputs = {
         "plant": (np.append(open_loop.b, 0.0), forward[:ticks] - command.initial_value + gain * wanted),

@@ -69,7 +69,9 @@ class MoveTask:
         if rate is not None and not (math.isfinite(rate) and rate > 0.0):
             raise DesignError(f"rate_limit = {rate!r}: must be finite and > 0")
         if not (math.isfinite(self.start) and math.isfinite(self.target)) or self.start == self.target:
-            raise DesignError(f"start = {self.start!r}, target = {self.target!r}: must be finite and differ")
+            raise DesignError(
+                f"target = {self.target!r}: must be finite, and differ from start = {self.start!r}"
+            )
         self.plant.check()
         for what, output, held in (
             ("start", self.start, self.initial_input),

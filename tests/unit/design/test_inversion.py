@@ -235,7 +235,7 @@ def test_a_transmission_without_damping_needs_a_smoother_motion():
         ({"order": 8}, "order = 8: must be an odd number from 3 to 15"),
         ({"order": 17}, "order = 17"),
         ({"duration_s": np.nan}, "duration_s = nan: must be finite and > 0"),
-        ({"target": 0.0}, "must be finite and differ"),
+        ({"target": 0.0}, "target = 0.0: must be finite, and differ from start = 0.0"),
     ],
 )
 def test_motions_out_of_range_are_refused(changes, message):

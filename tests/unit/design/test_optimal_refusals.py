@@ -52,7 +52,7 @@ CASES = {
     "limit without end": (lambda: task(limits=(-math.inf, 1.0)), "limit = -inf to 1.0: must be finite"),
     "no rate": (lambda: task(rate_limit_per_s=0.0), "rate_limit = 0.0: must be finite and > 0"),
     "no tick": (lambda: task(tick_s=0.0), "tick_s = 0.0: must be finite and > 0"),
-    "no move": (lambda: task(target=0.0), "must be finite and differ"),
+    "no move": (lambda: task(target=0.0), "target = 0.0: must be finite, and differ from start = 0.0"),
     "target out of reach": (
         lambda: task(target=6.0),
         "needs an input of 6 to stay there, and the limit is -5 to 5",
@@ -116,7 +116,7 @@ CASES = {
         lambda: output_with_feedback(
             OSCILLATOR, Command(0.1, [1.0], 1.0), [0.0], Feedback(50.0, 0.0), ticks=3
         ),
-        "unstable, grows",
+        "feedback P = 50, D = 0 s: unstable, grows",
     ),
     "a root in common": (
         lambda: made([1.0, 1.0], [1.0, 3.0, 2.0]),
