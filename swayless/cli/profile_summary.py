@@ -60,7 +60,7 @@ def profile_facts(design: ProfileDesign, origin: str) -> dict[str, Any]:
         "number": settings.number.name,
         "tick_s": settings.tick_s,
         "ticks": settings.pieces.ticks,
-        "stop_ticks": settings.rest_ticks,
+        "rest_ticks": settings.rest_ticks,
         "stop_rests_at": list(settings.extremes.rest),
         "limit": list(settings.limits),
         "hold_ratio": settings.hold_ratio,
@@ -87,11 +87,12 @@ def profile_lines(design: ProfileDesign, origin: str) -> Iterator[str]:
     settings, promise = design.settings, design.guarantee
     ticks, tick_s = settings.pieces.ticks, settings.tick_s
     lasts = f"a move in {counted(ticks, 'tick')} of {tick_s:g} s, {ticks * tick_s:.6g} s"
-    at_rest = f"at rest at most {counted(settings.rest_ticks, 'tick')} after an abort"
+    rest_s = f"{settings.rest_ticks * tick_s:.6g} s"
+    at_rest = f"at rest at most {counted(settings.rest_ticks, 'tick')}, {rest_s}, after an abort"
     yield f"{design.name}: {lasts}; {at_rest}"
     yield _table_line("table", settings.pieces, design.table_bytes)
     if settings.stop is None:
-        yield "stop: none, the end of the move is always sooner"
+        yield "stop: none would be much sooner than the end of the move"
     else:
         yield _table_line("stop", settings.stop.pieces, design.stop_bytes)
     share = per_cent(_largest_input_ratio(design))
