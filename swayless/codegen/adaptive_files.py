@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from swayless.codegen.adaptive_model import AdaptiveModel
-from swayless.codegen.render import GeneratedFile, render
-from swayless.errors import CodegenError
+from swayless.codegen.render import GeneratedFile, render, render_files
 
-C_FILES = {
-    "{}_adaptive.h": "c/adaptive.h.j2",
-    "{}_adaptive.c": "c/adaptive.c.j2",
-    "{}_example.c": "c/adaptive_example.c.j2",
+FILES = {
+    "c": {
+        "{}_adaptive.h": "c/adaptive.h.j2",
+        "{}_adaptive.c": "c/adaptive.c.j2",
+        "{}_example.c": "c/adaptive_example.c.j2",
+    },
+    "st": {"FB_{}_Adaptive.st": "st/adaptive.st.j2"},
 }
-ST_FILES = {"FB_{}_Adaptive.st": "st/adaptive.st.j2"}
+"""Templates by the names of the files, by target."""
 
 
 def generate_adaptive(model: AdaptiveModel, target: str) -> tuple[GeneratedFile, ...]:
@@ -36,13 +38,7 @@ def generate_adaptive(model: AdaptiveModel, target: str) -> tuple[GeneratedFile,
     >>> [file.path for file in generate_adaptive(model, "c")]
     ['robot_adaptive.h', 'robot_adaptive.c', 'robot_example.c']
     """
-    files = {"c": C_FILES, "st": ST_FILES}
-    if target not in files:
-        raise CodegenError(f"target {target!r}: must be one of {', '.join(files)}")
-    return tuple(
-        GeneratedFile(path.format(model.name), render(template, model.name, model))
-        for path, template in files[target].items()
-    )
+    return render_files(FILES, target, model)
 
 
 def adaptive_harness(model: AdaptiveModel) -> GeneratedFile:

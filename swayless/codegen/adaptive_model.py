@@ -19,6 +19,7 @@ from swayless.codegen.names import check_c_names, check_st_names
 from swayless.codegen.pin import Pin, pin
 from swayless.codegen.provenance import comment_text
 from swayless.codegen.st_types import StTypes
+from swayless.codegen.status_bits import StatusBit, status_bits
 from swayless.controller.adaptive import AdaptiveSettings, AdaptiveStatus, explain_adaptive
 from swayless.controller.adaptive.information import LEAST_DETERMINANT, NEWTON_STEPS
 from swayless.controller.adaptive.lattice import Lattice
@@ -81,16 +82,6 @@ class RealConstant:
     def st_text(self) -> str:
         """Literal in Structured Text: exponents are upper case."""
         return self.text.upper()
-
-
-@dataclass(frozen=True)
-class StatusBit:
-    """One bit of the status word."""
-
-    name: str
-    position: int
-    value: int
-    meaning: str
 
 
 @dataclass(frozen=True)
@@ -243,10 +234,7 @@ class AdaptiveModel:
     @property
     def status_bits(self) -> tuple[StatusBit, ...]:
         """Bits of the status word."""
-        return tuple(
-            StatusBit(str(bit.name), int(bit).bit_length() - 1, int(bit), explain_adaptive(bit))
-            for bit in AdaptiveStatus
-        )
+        return status_bits(AdaptiveStatus, explain_adaptive)
 
     @property
     def bit(self) -> dict[str, int]:

@@ -18,18 +18,10 @@ from swayless.codegen.clock_names import ClockNames, clock_names
 from swayless.codegen.features import Features, features_of
 from swayless.codegen.names import check_c_names
 from swayless.codegen.provenance import Provenance, check_comments, header_lines
+from swayless.codegen.status_bits import StatusBit, status_bits
 from swayless.controller.measured import ROPE, Measured
 from swayless.controller.settings import ShaperSettings
 from swayless.controller.status import ERROR_BITS
-
-
-@dataclass(frozen=True)
-class StatusBit:
-    """One bit of the status word."""
-
-    name: str
-    position: int
-    meaning: str
 
 
 @dataclass(frozen=True)
@@ -234,10 +226,9 @@ class CModel:
         return max(len(table.amplitudes) for table in self.settings.row_tables)
 
     @property
-    def status_bits(self) -> list[StatusBit]:
+    def status_bits(self) -> tuple[StatusBit, ...]:
         """The status word."""
-        bits, explain = self.settings.status_bits, self._measured.explain
-        return [StatusBit(bit.name or "", bit.value.bit_length() - 1, explain(bit)) for bit in bits]
+        return status_bits(self.settings.status_bits, self._measured.explain)
 
     @property
     def target_argument(self) -> str:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from swayless.codegen.profile_model import ProfileCode
-from swayless.codegen.render import GeneratedFile, render
-from swayless.errors import CodegenError
+from swayless.codegen.render import GeneratedFile, render, render_files
 
 FILES = {
     "c": {
@@ -32,12 +31,7 @@ def generate_profile(code: ProfileCode, target: str) -> tuple[GeneratedFile, ...
     CodegenError
         If there is no such target.
     """
-    if target not in FILES:
-        raise CodegenError(f"target {target!r}: must be one of {', '.join(FILES)}")
-    return tuple(
-        GeneratedFile(path.format(code.name), render(template, code.name, code))
-        for path, template in FILES[target].items()
-    )
+    return render_files(FILES, target, code)
 
 
 def profile_harness(code: ProfileCode) -> GeneratedFile:

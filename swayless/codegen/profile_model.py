@@ -10,7 +10,7 @@ from swayless.codegen.c_types import CTypes
 from swayless.codegen.literals import c_literal, shortest, st_literal
 from swayless.codegen.names import check_c_names, check_st_names
 from swayless.codegen.pin import Pin
-from swayless.codegen.profile_pins import INPUTS, OUTPUTS, StatusBit
+from swayless.codegen.profile_pins import INPUTS, OUTPUTS
 from swayless.codegen.profile_st_state import (
     ST_ARRAYS,
     ST_STOP_ARRAYS,
@@ -27,6 +27,7 @@ from swayless.codegen.profile_tables import (
 )
 from swayless.codegen.provenance import comment_text
 from swayless.codegen.st_types import ST_BYTES, StTypes, Variable
+from swayless.codegen.status_bits import StatusBit, status_bits
 from swayless.controller.number import number_type
 from swayless.controller.profile import ProfileSettings, ProfileStatus, explain_profile
 from swayless.controller.profile.settings import LARGEST_POSITION
@@ -164,10 +165,7 @@ class ProfileCode:
     @cached_property
     def status_bits(self) -> tuple[StatusBit, ...]:
         """Bits of the status word."""
-        return tuple(
-            StatusBit(str(bit.name), int(bit).bit_length() - 1, int(bit), explain_profile(bit))
-            for bit in ProfileStatus
-        )
+        return status_bits(ProfileStatus, explain_profile)
 
     @property
     def bit(self) -> dict[str, int]:

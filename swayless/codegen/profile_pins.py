@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from swayless.codegen.pin import pin
 
 INPUTS = (
@@ -23,12 +21,3 @@ OUTPUTS = (
     pin("status", "word", "sum of the status bits"),
 )
 """Pins that it writes."""
-
-
-class StatusBit(NamedTuple):
-    """One bit of the status word."""
-
-    name: str
-    position: int
-    value: int
-    meaning: str

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -50,6 +51,33 @@ def render(template: str, prefix: str, model: Any) -> str:
         Everything that is printed, `m` in the templates.
     """
     return _environment().get_template(template).render(P=prefix, m=model)
+
+
+def render_files(
+    templates: Mapping[str, Mapping[str, str]], target: str, model: Any
+) -> tuple[GeneratedFile, ...]:
+    """Fill the templates of one target.
+
+    Parameters
+    ----------
+    templates : mapping
+        By target: templates by the names of their files, in which ``{}`` stands for the machine's name.
+    target : str
+        One of them.
+    model
+        Everything that is printed; it has the machine's `name`.
+
+    Raises
+    ------
+    CodegenError
+        If there is no such target.
+    """
+    if target not in templates:
+        raise CodegenError(f"target {target!r}: must be one of {', '.join(templates)}")
+    return tuple(
+        GeneratedFile(path.format(model.name), render(template, model.name, model))
+        for path, template in templates[target].items()
+    )
 
 
 @cache

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swayless.codegen.adaptive_files import adaptive_harness
 from swayless.codegen.adaptive_model import INPUTS, OUTPUTS, AdaptiveModel
-from swayless.codegen.pin import Pin
 from swayless.codegen.render import GeneratedFile
 from swayless.controller.adaptive import AdaptiveInput, AdaptiveSettings, AdaptiveShaper
 from swayless.controller.adaptive.shaper import LARGEST_VIBRATION
@@ -19,7 +17,7 @@ from swayless.plant.mode import Mode
 from swayless.plant.simulation.flexible_robot import FlexibleRobot
 from swayless.verify.c_run import CompiledProgram
 from swayless.verify.comparison import compare
-from swayless.verify.records import COMMAND_TYPES
+from swayless.verify.records import record_of
 from swayless.verify.st_run import EvaluatedProgram
 from swayless.verify.stimulus import Stimulus
 from swayless.verify.toolchain import Compiler
@@ -74,7 +72,7 @@ def verify_adaptive(
     ToolMissingError
         If the Structured Text parser is missing.
     """
-    number, outputs = model.settings.number.name, _records(OUTPUTS, model.settings)
+    number, outputs = model.settings.number.name, record_of(OUTPUTS, model.settings.number)
     with ExitStack() as stack:
         runs: list[tuple[str, CompiledProgram | EvaluatedProgram]] = []
         if c_files and compiler is not None:
@@ -100,7 +98,7 @@ def run_adaptive_reference(settings: AdaptiveSettings, inputs: NDArray[np.void])
         Fields `enable`, `command` and `vibration`.
     """
     shaper, scalar = AdaptiveShaper(settings), settings.number.scalar
-    outputs = np.zeros(inputs.size, dtype=_records(OUTPUTS, settings))
+    outputs = np.zeros(inputs.size, dtype=record_of(OUTPUTS, settings.number))
     columns = (inputs[name].tolist() for name in ("command", "vibration", "enable"))
     for tick, (command, vibration, enable) in enumerate(zip(*columns, strict=True)):
         found = shaper.step(AdaptiveInput(scalar(command), scalar(vibration), enable))
@@ -216,16 +214,6 @@ def _move_ticks(settings: AdaptiveSettings) -> int:
 
 
 def _blank(settings: AdaptiveSettings, ticks: int) -> NDArray[np.void]:
-    inputs = np.zeros(ticks, dtype=_records(INPUTS, settings))
+    inputs = np.zeros(ticks, dtype=record_of(INPUTS, settings.number))
     inputs["enable"] = True
     return inputs
-
-
-def _records(pins: Sequence[Pin], settings: AdaptiveSettings) -> np.dtype[np.void]:
-    """Record type, laid out as the C structure is."""
-    kinds: dict[str, Any] = {
-        "bool": np.bool_,
-        "real": COMMAND_TYPES[settings.number.name],
-        "word": np.uint32,
-    }
-    return np.dtype([(pin.field, kinds[pin.kind]) for pin in pins], align=True)
