@@ -71,10 +71,10 @@ def stored_block(path: Path) -> Make | None:
 def _toml(path: Path) -> dict[str, object]:
     """Parse a file; whatever is wrong with it is for others to report."""
     from swayless.errors import FileError
-    from swayless.machine.profile_file import toml_document
+    from swayless.machine.toml_source import read_toml
 
     try:
-        return toml_document(path)
+        return read_toml(path)
     except FileError:
         return {}
 

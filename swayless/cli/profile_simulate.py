@@ -146,9 +146,10 @@ def _move(file: Path, options: Mapping[str, str], axis: str | None, outputs: Seq
     from swayless.cli.profile_loop import Move
     from swayless.cli.profile_work import found_for
     from swayless.machine.inversion import asks_for_inversion
-    from swayless.machine.profile_file import load_profile, toml_document
+    from swayless.machine.profile_file import load_profile
+    from swayless.machine.toml_source import read_toml
 
-    if asks_for_inversion(toml_document(file)):
+    if asks_for_inversion(read_toml(file)):
         check_apart(outputs, [file])
         return _inverted(file, [*options, *([] if axis is None else ["axis"])])
     request = load_profile(file, option_table(options, []).raw, axis=axis)

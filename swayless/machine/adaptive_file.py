@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import math
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,10 +22,10 @@ from swayless.controller.number import number_type
 from swayless.errors import ControllerError, FileError
 from swayless.machine.checks import choice, machine_name, number, quantity
 from swayless.machine.controller_section import TICK
-from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.plant_section import DAMPING, FREQUENCY
 from swayless.machine.problems import Place, Report, Table
 from swayless.machine.source import read_source
+from swayless.machine.toml_source import MAX_BYTES, read_toml
 from swayless.plant import Mode
 
 SCHEMA = "swayless.adaptive/1"
@@ -60,9 +59,18 @@ class AdaptiveMachine:
 def is_adaptive(path: Path) -> bool:
     """Whether a TOML file has a section ``[adaptive]``; whatever else is wrong is for others to report."""
     try:
-        return "adaptive" in tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
-    except (ValueError, RecursionError):
+        return "adaptive" in read_toml(path)
+    except FileError:
         return False
+
+
+def _stored(path: Path) -> object:
+    """Read what `adaptive_text` made."""
+    text = read_source(path, max_bytes=MAX_BYTES)
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FileError([f"{path}: not valid JSON: {error}"]) from error
 
 
 def load_adaptive(path: Path) -> AdaptiveMachine:
@@ -79,11 +87,7 @@ def load_adaptive(path: Path) -> AdaptiveMachine:
         With every problem found: file, key, value and what is allowed.
     """
     report = Report(str(path))
-    text = read_source(path, max_bytes=MAX_BYTES)
-    try:
-        document = json.loads(text) if path.suffix == ".json" else tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise FileError([f"{path}: not valid {path.suffix[1:].upper()}: {error}"]) from error
+    document = _stored(path) if path.suffix == ".json" else read_toml(path)
     root = Table(document if isinstance(document, dict) else {}, report, "")
     root.take("schema", choice("schema", [SCHEMA]), SCHEMA)
     name = root.need("name", machine_name)

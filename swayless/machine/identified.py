@@ -27,10 +27,10 @@ from swayless.machine.identified_ranges import (
     toml_value,
 )
 from swayless.machine.identified_text import replaced, written
-from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.names import name_problem
 from swayless.machine.plant_section import PlantKind
 from swayless.machine.source import read_source
+from swayless.machine.toml_source import MAX_BYTES
 from swayless.machine.writing import write_text_atomically
 from swayless.plant import Band
 

@@ -66,7 +66,6 @@ _COUNT_NAMES = re.compile(
     r"([ _-]*(number|count|no\.?|nr\.?|id|index|idx|#))?",
     re.IGNORECASE,
 )
-_ROPE_NAMES = re.compile(r"(rope|cable|hoist|pendulum)([ _-]*(length|height))?|rope[ _-]*m", re.IGNORECASE)
 
 
 class Head(NamedTuple):
@@ -109,11 +108,6 @@ class Head(NamedTuple):
     def is_count(self) -> bool:
         """Whether the column looks like a count of samples or of swings, rather than a measurement."""
         return self.is_swing or bool(_COUNT_NAMES.fullmatch(self.name))
-
-    @property
-    def is_rope(self) -> bool:
-        """Whether the column looks like rope lengths."""
-        return bool(_ROPE_NAMES.fullmatch(self.name))
 
 
 def unit_named(text: str) -> str | None:

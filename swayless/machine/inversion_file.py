@@ -5,7 +5,6 @@ Not for: finding the command (`swayless.design.inversion`), or moves within limi
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,11 +18,10 @@ from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError, FileError, PlantError
 from swayless.machine.checks import choice, integer, machine_name, number, quantity
 from swayless.machine.controller_section import TICK
-from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.plant_section import MASS
 from swayless.machine.problems import Place, Report, Table, shown
 from swayless.machine.profile_plant import COEFFICIENT, coefficients
-from swayless.machine.source import read_source
+from swayless.machine.toml_source import read_toml
 from swayless.plant.elastic_drive import ElasticDrive
 
 DURATION = quantity("time", 1e-5, 1e4)
@@ -126,10 +124,7 @@ def load_inversion(path: Path) -> InversionRequest:
     FileError
         With every problem found: file, key, value and what is allowed.
     """
-    try:
-        document = tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
-    except (ValueError, RecursionError) as error:
-        raise FileError([f"{path}: not valid TOML: {error}"]) from error
+    document = read_toml(path)
     report = Report(str(path))
     root = Table(document, report, "")
     name = root.take("name", machine_name, "move")

@@ -11,8 +11,8 @@ from pathlib import Path
 from swayless.errors import FileError
 from swayless.machine.identified_text import entries, replaced
 from swayless.machine.inversion_file import InversionRequest
-from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.source import read_source
+from swayless.machine.toml_source import MAX_BYTES
 from swayless.plant.elastic_drive import TUNED, ElasticDrive
 
 _DIGITS = 9

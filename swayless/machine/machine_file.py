@@ -5,8 +5,6 @@ Every problem of a file is reported at once. Not for: designing what the file as
 
 from __future__ import annotations
 
-import re
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,17 +29,14 @@ from swayless.machine.operator_section import NO_FUNCTIONS, FunctionTables, read
 from swayless.machine.plant_section import PlantKind, PlantSection, read_plant
 from swayless.machine.problems import RefusedError, Report, Table, plain, shown
 from swayless.machine.row_section import Row, read_row
-from swayless.machine.source import read_source
 from swayless.machine.speed_loop import driven_ropes, plant_below
+from swayless.machine.toml_source import read_toml
 from swayless.machine.true_row import check_driven_row
 from swayless.plant import DrivenRopes
 
-MAX_BYTES = 1_000_000
 _PLANT_KINDS: tuple[PlantKind, ...] = ("crane", "arm")
 _ONE_OF = {"[crane] or [arm]": _PLANT_KINDS, "[[row]] or [bank]": ("row", "bank")}
 _FUNCTIONS = ("steps", "limits", "tuning")
-_AT_LINE = re.compile(r"(.*) \(at line (\d+), column (\d+)\)")
-_NAKED_QUANTITY = re.compile(r"=[^\"'#]*[0-9.]\s*[A-Za-z%]")
 
 
 @dataclass(frozen=True)
@@ -154,7 +149,7 @@ def load_machine(
     ((), 3, 3.0, 'ft')
     """
     path = Path(path)
-    document = _parse(path, read_source(path, max_bytes=MAX_BYTES))
+    document = _document(path)
     report = Report(str(path))
     axes = axis_documents(document, report)
     chosen_axis(tuple(axes), axis, report)
@@ -197,7 +192,7 @@ def load_axes(path: Path | str) -> Axes:
     ('two_axis_crane', ['two_axis_crane_bridge', 'two_axis_crane_trolley'])
     """
     path = Path(path)
-    document = _parse(path, read_source(path, max_bytes=MAX_BYTES))
+    document = _document(path)
     report = Report(str(path))
     documents = axis_documents(document, report)
     if report.problems:
@@ -226,13 +221,8 @@ _OTHER_BLOCKS = {
 """What a file without a machine describes, by a section of it."""
 
 
-def _parse(path: Path, text: str) -> dict[str, object]:
-    try:
-        document = tomllib.loads(text)
-    except RecursionError as error:
-        raise FileError([f"{path}: not valid TOML: nested too deeply"]) from error
-    except ValueError as error:
-        raise FileError([f"{path}: {_syntax_problem(text, f'{error}')}"]) from error
+def _document(path: Path) -> dict[str, object]:
+    document = read_toml(path)
     if not document:
         needs = "name, [crane] or [arm], [controller] and at least one [[row]] or a [bank]"
         hint = "'swayless init' writes a commented file to start from"
@@ -243,16 +233,6 @@ def _parse(path: Path, text: str) -> dict[str, object]:
                 needed = "here a machine with [crane] or [arm] is needed"
                 raise FileError([f"{path}: [{section}]: {what}; {needed}"])
     return document
-
-
-def _syntax_problem(text: str, message: str) -> str:
-    """Put the line and its text beside what the parser says."""
-    match = _AT_LINE.fullmatch(message)
-    if match is None:
-        return f"not valid TOML: {message}"
-    line = text.split("\n")[int(match[2]) - 1].strip()
-    hint = '; a quantity with a unit stands in quotes: "29 ft"' if _NAKED_QUANTITY.search(line) else ""
-    return f"line {match[2]}, column {match[3]}: {line[:60]!a}: not valid TOML: {match[1]}{hint}"
 
 
 def _with_bank(document: dict[str, object], bank_options: Mapping[str, object] | None) -> dict[str, object]:

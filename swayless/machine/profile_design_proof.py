@@ -65,12 +65,6 @@ class ProfileProof:
         """Largest input of all that can be played, of a move by 1."""
         return max(abs(shape) for shape in self.extremes.shape)
 
-    def input_share(self, numbered: NumberedMove) -> float:
-        """Largest share of the input's limits that the move, or a stop of it, takes: 1 at a limit."""
-        low, high = numbered.limits
-        references = numbered.references(np.array(self.extremes.shape))
-        return float(np.abs(references - 0.5 * (low + high)).max() / (0.5 * (high - low)))
-
     def keeps_input(self, numbered: NumberedMove) -> bool:
         """Whether the move of the design, and all its stops, keep the limits of the input."""
         low, high = numbered.limits

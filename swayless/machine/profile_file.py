@@ -6,7 +6,6 @@ machine's. Not for: finding the command (`swayless.design.optimal`).
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,12 +16,11 @@ from swayless.design.shaper import FloatArray
 from swayless.errors import DesignError, FileError
 from swayless.machine.checks import choice, integer, machine_name, number, quantity
 from swayless.machine.controller_section import TICK
-from swayless.machine.machine_file import MAX_BYTES
 from swayless.machine.problems import Place, Report, Table, shown
 from swayless.machine.profile_machine import LOAD_KEYS, read_machine
 from swayless.machine.profile_plant import COEFFICIENT, coefficients, read_plant_model
 from swayless.machine.profile_trajectory import read_trajectory
-from swayless.machine.source import read_source
+from swayless.machine.toml_source import read_toml
 
 PLANT_KEYS = ("numerator", "denominator", "a", "b", "c", "d")
 
@@ -73,24 +71,10 @@ class _Overlaid(Table):
 def is_profile(path: Path) -> bool:
     """Whether a TOML file has a section ``[plant]`` or ``[move]``; whatever else is wrong is for others."""
     try:
-        document = toml_document(path)
+        document = read_toml(path)
     except FileError:
         return False
     return not _is_machine(document) and any(isinstance(document.get(key), dict) for key in ("plant", "move"))
-
-
-def toml_document(path: Path) -> dict[str, object]:
-    """Read a TOML file.
-
-    Raises
-    ------
-    FileError
-        If it cannot be read, or is no TOML.
-    """
-    try:
-        return tomllib.loads(read_source(path, max_bytes=MAX_BYTES))
-    except (ValueError, RecursionError) as error:
-        raise FileError([f"{path}: not valid TOML: {error}"]) from error
 
 
 def _is_machine(document: Mapping[str, object]) -> bool:
@@ -126,7 +110,7 @@ def load_profile(
     1.0
     """
     report = Report("" if path is None else str(path))
-    document = {} if path is None else toml_document(path)
+    document = {} if path is None else read_toml(path)
     if path is not None and _is_machine(document):
         name, plant, move = _of_machine(path, options, report, axis)
     else:

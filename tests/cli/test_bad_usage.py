@@ -275,3 +275,14 @@ def test_a_bad_machine_file_builds_nothing(run, gantry, tmp_path, old, new, mess
     assert done.err.startswith("error: gantry.toml: ")
     assert (done.code, done.out) == (2, "")
     assert snapshot(tmp_path) == before
+
+
+@pytest.mark.parametrize("command", ["build", "profile optimal", "profile invert", "profile simulate"])
+def test_a_file_that_is_missing_or_no_toml_is_said_once_with_its_line(run, tmp_path, command):
+    missing = run(*command.split(), "nowhere.toml")
+    assert (missing.code, missing.out) == (2, "")
+    assert missing.err == "error: nowhere.toml: cannot be read: there is no such file\n"
+    (tmp_path / "naked.toml").write_text('name = "naked"\n[move]\ntick = 5 ms\n')
+    naked = run(*command.split(), "naked.toml")
+    assert naked.code == 2
+    assert naked.err.startswith("error: naked.toml: line 3, column 10: 'tick = 5 ms': not valid TOML: ")

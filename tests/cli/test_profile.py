@@ -166,7 +166,7 @@ CASES = {
     "contactor.toml --target 1 --rope-length 3": [
         "contactor drive cannot follow a command with values between"
     ],
-    "broken.toml": ["broken.toml: not valid TOML"],
+    "broken.toml": ["broken.toml: line 1, column 1: '= 1': not valid TOML"],
     "odd.toml": ["odd.toml: [plant] numerato: unknown key", "odd.toml: [plant] numerator: missing"],
     "none.toml": ["none.toml: cannot be read"],
 }
