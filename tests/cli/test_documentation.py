@@ -69,6 +69,15 @@ def test_every_command_line_works_and_prints_what_is_shown(run, page):
             assert comparable(done.out) == comparable(output), line
 
 
+def test_the_command_lines_of_the_tradeoff_page_work(run):
+    assert run("init", "crane.toml").code == 0
+    lines = shown((ROOT / "docs" / "tradeoff.md").read_text(encoding="utf-8"))
+    assert len(lines) >= 2
+    for line, _ in lines:
+        done = run(*shlex.split(line)[1:])
+        assert (done.code, done.err) == (0, ""), line
+
+
 HEADINGS = {"design FAMILY": "design"} | {
     name: name
     for name in (
