@@ -125,16 +125,21 @@ def _parse(text: str, report: Report) -> object:
 
 
 def _layout(value: Any, indent: str) -> str:
-    """Print objects over several lines, and an array of numbers on one line where it fits."""
+    """Print objects over several lines, and an array on one line where it fits; a text is never broken."""
     deeper = indent + _INDENT
     if isinstance(value, dict):
         lines = [f"{deeper}{json.dumps(key)}: {_layout(item, deeper)}" for key, item in value.items()]
         return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
-    if isinstance(value, list) and value and isinstance(value[0], dict):
+    text = json.dumps(value)
+    is_long = isinstance(value, list) and len(indent) + len(text) > _LINE_LENGTH
+    if (
+        isinstance(value, list)
+        and value
+        and (isinstance(value[0], dict) or (is_long and isinstance(value[0], str)))
+    ):
         items = [deeper + _layout(item, deeper) for item in value]
         return "[\n" + ",\n".join(items) + f"\n{indent}]"
-    text = json.dumps(value)
-    if isinstance(value, list) and len(indent) + len(text) > _LINE_LENGTH:
+    if is_long:
         numbers = textwrap.fill(text[1:-1], _LINE_LENGTH, initial_indent=deeper, subsequent_indent=deeper)
         return f"[\n{numbers}\n{indent}]"
     return text

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from swayless.errors import FileError
 from swayless.machine import DesignFile, design_sha256, load_design, save_text
+from swayless.machine.design_file import _layout
 from swayless.machine.stored_numbers import inward_12, nearest_12
 
 POSITIVE = st.floats(1e-300, 1e300)
@@ -122,6 +123,13 @@ def test_long_arrays_are_wrapped_and_short_ones_stay_on_a_line(design: DesignFil
     assert max(len(line) for line in text.splitlines()) <= 100
     assert re.search(r'"delays_ticks": \[\n +0, 1, 2', text)
     assert '"times_s": [0.0, 2.00640929259],' in text
+
+
+def test_a_long_array_of_texts_breaks_none_of_them() -> None:
+    labels = [f"{row}: {30 - row}-{29 - row}.45 ft" for row in range(1, 9)]
+    text = _layout({"labels": labels}, "")
+    assert json.loads(text) == {"labels": labels}
+    assert max(map(len, text.splitlines())) <= 100
 
 
 def test_the_hash_is_that_of_the_compact_json_and_ignores_indentation(
